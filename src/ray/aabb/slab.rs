@@ -1,0 +1,101 @@
+//! Ray against box by slabs.
+//!
+//! T. L. Kay, J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986; with the planes ordered by
+//! the direction's sign, as in A. Williams et al., "An efficient and robust ray-box intersection
+//! algorithm", 2005, and closed sets in the face of 0·∞.
+
+use super::{AabbHit, BoxRay};
+use crate::shape::{Aabb, Face};
+use crate::vector::{Number, Scalar, Vector};
+
+/// Where the ray enters and leaves the box, through which faces, clipped to the ray's range.
+///
+/// Per axis, t = (plane − o) · (1/d) for the two planes; the ray is in the box from the last
+/// entry to the first exit. An axis to which the ray is parallel lets it pass if the origin lies
+/// between its planes or on one of them.
+///
+/// **Grade: fast.** t_enter and t_exit are within 3 roundings of the exact ones (a relative error
+/// below 3.1u, u = EPSILON/2). The verdict is certain unless an entry and an exit, or an end of the
+/// range, are that close to each other: for a promise there see [`super::conservative`].
+///
+/// An empty box, a box with a NaN, a zero direction, a NaN or infinite origin or direction: a miss.
+/// So is a box of which the entry is beyond the largest float.
+///
+/// ```
+/// use isect::{Aabb, Face, Ray, glam::Vec3, ray::aabb::{BoxRay, slab}};
+///
+/// let aabb = Aabb::new(Vec3::splat(-1.0), Vec3::splat(1.0));
+/// let ray = BoxRay::new(&Ray::new(Vec3::new(-3.0, 0.0, 0.0), Vec3::X));
+/// let hit = slab::intersect(&ray, &aabb).expect("it is aimed at the centre");
+/// assert_eq!((hit.t_enter, hit.t_exit), (2.0, 4.0));
+/// assert_eq!((hit.enter_face, hit.exit_face), (Some(Face::NegX), Some(Face::PosX)));
+/// ```
+#[inline]
+#[must_use]
+pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V::Scalar>> {
+    let (near, far) = slabs(ray, aabb);
+    let (last_entry, first_exit) = (near.max_element(), far.min_element());
+    let (t_enter, t_exit) = (last_entry.max(ray.t_min), first_exit.min(ray.t_max));
+    if !overlap(aabb, t_enter, t_exit) {
+        return None;
+    }
+    // Where the range clips, or the box is unbounded, no face is crossed.
+    let face = |bounds: V, t: V::Scalar, crossed: bool, far_side: bool| {
+        let axis = if bounds.x() == t {
+            0
+        } else if bounds.y() == t {
+            1
+        } else {
+            2
+        };
+        let backward = ray.direction.component(axis) < V::Scalar::ZERO;
+        (crossed && t.is_finite()).then(|| Face::across(axis, backward != far_side))
+    };
+    Some(AabbHit {
+        t_enter,
+        t_exit,
+        enter_face: face(near, last_entry, last_entry >= ray.t_min, false),
+        exit_face: face(far, first_exit, first_exit <= ray.t_max, true),
+    })
+}
+
+/// Whether the ray hits the box: the same verdict as [`intersect`], for less.
+///
+/// ```
+/// use isect::{Aabb, Ray, glam::Vec3, ray::aabb::{BoxRay, slab}};
+///
+/// // Along a face of the box: the set is closed.
+/// let aabb = Aabb::new(Vec3::ZERO, Vec3::ONE);
+/// let ray = Ray::new(Vec3::new(-1.0, 1.0, 0.5), Vec3::new(1.0, -0.0, 0.0));
+/// assert!(slab::hits(&BoxRay::new(&ray), &aabb));
+/// ```
+#[inline]
+#[must_use]
+pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
+    let (near, far) = slabs(ray, aabb);
+    let t_enter = near.max_element().max(ray.t_min);
+    let t_exit = far.min_element().min(ray.t_max);
+    overlap(aabb, t_enter, t_exit)
+}
+
+/// The t at which the ray enters and leaves each slab.
+#[inline(always)]
+fn slabs<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V, V) {
+    if ray.extreme {
+        return ray.quotients(aabb);
+    }
+    let (near, far) = ray.differences(aabb);
+    // 0 · ∞, a parallel ray in a plane of the box, is NaN, which `max` and `min` drop.
+    (
+        near.scaled(ray.inverse).max(V::NEG_INFINITY),
+        far.scaled(ray.inverse).min(V::INFINITY),
+    )
+}
+
+/// Whether what is left of the range is not empty. The entry of a parallel ray outside of its slab
+/// is infinite, and so is the exit from an unbounded box: an infinite entry is a miss.
+#[inline(always)]
+fn overlap<V: Vector>(aabb: &Aabb<V>, t_enter: V::Scalar, t_exit: V::Scalar) -> bool {
+    let largest = V::Scalar::MAX;
+    aabb.min.all_le(aabb.max) & t_enter.le(largest.min(t_exit)) & (-largest).le(t_exit)
+}

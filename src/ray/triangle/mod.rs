@@ -1,0 +1,210 @@
+//! Ray against triangle.
+//!
+//! | kernel | grade | for |
+//! |---|---|---|
+//! | [`watertight`] | watertight | anything that must not leak; the default |
+//! | [`moller_trumbore`] | fast | leaves where a lost ray does not matter |
+//! | [`badouel`] | fast | many rays against few triangles, prepared once |
+//! | [`segura`] | fast | yes or no without a division |
+
+pub mod badouel;
+pub mod moller_trumbore;
+pub mod segura;
+pub mod watertight;
+
+use core::ops::{Add, Mul};
+
+use super::{Intersect, in_range};
+use crate::shape::{Ray, Triangle};
+use crate::vector::{Coordinates, Number, Scalar, Vector};
+
+/// Where a ray meets a triangle: the point (1 − u − v)·v0 + u·v1 + v·v2 = o + t·d.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct TriangleHit<T> {
+    /// The ray's parameter.
+    pub t: T,
+    /// The weight of `v1`.
+    pub u: T,
+    /// The weight of `v2`.
+    pub v: T,
+    /// Whether the vertices run counter-clockwise seen from the ray's origin. No kernel culls: to
+    /// cull back faces, filter on it.
+    pub front: bool,
+}
+
+impl<T: Scalar> TriangleHit<T> {
+    /// The weights of the three vertices, (1 − u − v, u, v); none is negative.
+    #[inline]
+    #[must_use]
+    pub fn barycentric(&self) -> [T; 3] {
+        // Where the kernel divides each weight by itself, 1 − u − v may round to just below zero.
+        [(T::ONE - self.u - self.v).max(T::ZERO), self.u, self.v]
+    }
+
+    /// The weighted mean of a quantity (a normal, a colour, texture coordinates) that is `a`, `b`
+    /// and `c` at the vertices.
+    ///
+    /// ```
+    /// use isect::{glam::Vec2, ray::triangle::TriangleHit};
+    ///
+    /// let hit = TriangleHit { t: 1.0, u: 0.25, v: 0.5, front: true };
+    /// assert_eq!(hit.interpolate(Vec2::ZERO, Vec2::X, Vec2::Y), Vec2::new(0.25, 0.5));
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn interpolate<A: Mul<T, Output = A> + Add<Output = A>>(&self, a: A, b: A, c: A) -> A {
+        let [w, u, v] = self.barycentric();
+        a * w + b * u + c * v
+    }
+}
+
+impl<V: Vector> Intersect<V> for Triangle<V> {
+    type Hit = TriangleHit<V::Scalar>;
+    #[inline]
+    fn intersect(&self, ray: &Ray<V>) -> Option<Self::Hit> {
+        watertight::intersect(&watertight::ShearedRay::new(ray), self)
+    }
+}
+
+/// What a kernel body finds, in one lane or several: the numbers count where `hit` holds.
+struct Found<N: Number> {
+    hit: N::Mask,
+    t: N,
+    u: N,
+    v: N,
+    front: N::Mask,
+}
+
+impl<T: Scalar> Found<T> {
+    #[inline(always)]
+    fn into_option(self) -> Option<TriangleHit<T>> {
+        // Written so that it compiles to a conditional move and not to a branch, which random rays
+        // would mispredict.
+        let mut hit = Some(TriangleHit {
+            t: self.t,
+            u: self.u,
+            v: self.v,
+            front: self.front,
+        });
+        if !self.hit {
+            hit = None;
+        }
+        hit
+    }
+}
+
+/// The line through the ray, with respect to the triangle: what the kernels compute with that
+/// work on edges.
+#[derive(Clone, Copy)]
+struct Frame<V: Coordinates> {
+    /// The ray's direction.
+    direction: V,
+    /// v1 − v0
+    edge1: V,
+    /// v2 − v0
+    edge2: V,
+    /// From v0 to the ray's origin.
+    offset: V,
+}
+
+impl<V: Coordinates> Frame<V> {
+    #[inline(always)]
+    fn new(ray: &Ray<V>, triangle: &Triangle<V>) -> Self {
+        Self {
+            direction: ray.direction,
+            edge1: triangle.v1 - triangle.v0,
+            edge2: triangle.v2 - triangle.v0,
+            offset: ray.origin - triangle.v0,
+        }
+    }
+
+    /// The same problem with the direction and the edges brought to about 1 by powers of two, and
+    /// the factor that takes its t back.
+    fn normalized(&self) -> (Self, V::Scalar) {
+        let longest = self.edge1.abs().max(self.edge2.abs()).max_element();
+        let scale = longest.normalizer();
+        let t_scale = self.direction.abs().max_element().normalizer();
+        let frame = Self {
+            direction: self.direction * t_scale,
+            edge1: self.edge1 * scale,
+            edge2: self.edge2 * scale,
+            offset: self.offset * scale,
+        };
+        (frame, t_scale / scale)
+    }
+}
+
+/// t, u, v of the point where the ray's line meets the triangle's plane.
+struct Solution<N: Number> {
+    /// A positive multiple of −d·n, n the triangle's normal.
+    determinant: N,
+    t: N,
+    u: N,
+    v: N,
+}
+
+impl<N: Number> Solution<N> {
+    /// Keeps the point if it lies in the triangle and in the range. Any NaN is a miss.
+    #[inline(always)]
+    fn clipped(self, t_min: N, t_max: N) -> Found<N> {
+        let Self {
+            determinant,
+            t,
+            u,
+            v,
+        } = self;
+        let (zero, one) = (t.lit(0.0), t.lit(1.0));
+        let inside = zero.le(u) & zero.le(v) & zero.le(one - u - v);
+        let hit = inside & in_range(t, t_min, t_max);
+        Found {
+            hit,
+            t,
+            u,
+            v,
+            front: zero.lt(determinant),
+        }
+    }
+}
+
+/// Whether origin, direction and vertices are finite, and the direction is not zero.
+fn is_valid<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
+    let vertices: [V; 3] = (*triangle).into();
+    ray.is_valid() && vertices.iter().all(|v| v.is_finite())
+}
+
+/// Runs a kernel that works on edges.
+///
+/// Where the determinant has left the middle of the range of exponents, and is not to be trusted,
+/// the kernel runs again on a scaled problem.
+#[inline(always)]
+fn intersect_frame<V: Vector>(
+    ray: &Ray<V>,
+    triangle: &Triangle<V>,
+    solve: impl Fn(&Frame<V>) -> Solution<V::Scalar>,
+) -> Option<TriangleHit<V::Scalar>> {
+    let solution = solve(&Frame::new(ray, triangle));
+    if !solution.determinant.is_mid_range() {
+        return extreme(ray, triangle, solve);
+    }
+    solution.clipped(ray.t_min, ray.t_max).into_option()
+}
+
+#[cold]
+fn extreme<V: Vector>(
+    ray: &Ray<V>,
+    triangle: &Triangle<V>,
+    solve: impl Fn(&Frame<V>) -> Solution<V::Scalar>,
+) -> Option<TriangleHit<V::Scalar>> {
+    if !is_valid(ray, triangle) {
+        return None;
+    }
+    let (frame, t_scale) = Frame::new(ray, triangle).normalized();
+    let mut solution = solve(&frame);
+    solution.t = solution.t * t_scale;
+    let flat = solution.determinant == V::Scalar::ZERO;
+    solution
+        .clipped(ray.t_min, ray.t_max)
+        .into_option()
+        .filter(|_| !flat)
+}

@@ -1,0 +1,202 @@
+//! Ray against triangle without leaks.
+//!
+//! S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", Journal of Computer
+//! Graphics Techniques 2.1, 2013. Space is sheared so that the ray becomes an axis; then a vertex
+//! has the same two-dimensional coordinates for every triangle that it belongs to, and the side on
+//! which the ray passes an edge is decided exactly on them.
+
+use super::{Found, TriangleHit, in_range};
+use crate::exact::difference_of_products;
+use crate::shape::{Ray, Triangle};
+use crate::vector::{Coordinates, Number, Scalar, Vector};
+use glam::Vec3;
+
+/// A ray with its shear, made once per ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct ShearedRay<V: Coordinates = Vec3> {
+    origin: V,
+    /// The axis of the direction's largest component: 0, 1 or 2.
+    axis: u32,
+    /// The direction's next two components, cyclically, over the largest.
+    shear: [V::Scalar; 2],
+    /// `z · inverse · t_scale` is t at depth z along the axis; `t_scale` is 1 but for directions of
+    /// extreme length.
+    inverse: V::Scalar,
+    t_scale: V::Scalar,
+    t_min: V::Scalar,
+    /// The greatest t that counts, as in [`Ray::t_max`]; a traversal lowers it to the closest hit
+    /// so far.
+    pub t_max: V::Scalar,
+}
+
+impl<V: Vector> ShearedRay<V> {
+    /// Prepares a ray. One that hits nothing (zero direction, NaN, …) stays so.
+    #[inline]
+    #[must_use]
+    pub fn new(ray: &Ray<V>) -> Self {
+        let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
+        let d = ray.direction;
+        let [x, y, z] = [d.x().abs(), d.y().abs(), d.z().abs()];
+        let (axis, [dx, dy, dz]) = if x >= y && x >= z {
+            (0, [d.y(), d.z(), d.x()])
+        } else if y >= z {
+            (1, [d.z(), d.x(), d.y()])
+        } else {
+            (2, [d.x(), d.y(), d.z()])
+        };
+        let t_scale = if dz.is_mid_range() {
+            one
+        } else {
+            dz.normalizer()
+        };
+        Self {
+            origin: ray.origin,
+            axis,
+            shear: [dx / dz, dy / dz],
+            inverse: one / (dz * t_scale),
+            t_scale,
+            // A NaN that no comparison lets through.
+            t_min: if ray.is_valid() {
+                ray.t_min
+            } else {
+                zero / zero
+            },
+            t_max: ray.t_max,
+        }
+    }
+
+    /// The triangle in the sheared space with the origin at zero and the ray along z, as the x, y
+    /// and z of its three vertices.
+    #[inline(always)]
+    fn sheared(&self, triangle: &Triangle<V>) -> Sheared<V> {
+        let a = triangle.v0 - self.origin;
+        let b = triangle.v1 - self.origin;
+        let c = triangle.v2 - self.origin;
+        let x = V::new(a.x(), b.x(), c.x());
+        let y = V::new(a.y(), b.y(), c.y());
+        let z = V::new(a.z(), b.z(), c.z());
+        let (x, y, z) = match self.axis {
+            0 => (y, z, x),
+            1 => (z, x, y),
+            _ => (x, y, z),
+        };
+        Sheared {
+            x: x - z * self.shear[0],
+            y: y - z * self.shear[1],
+            z,
+        }
+    }
+}
+
+/// Where the ray meets the triangle, in the closed range of the ray.
+///
+/// With (x_i, y_i) the sheared vertices, the weights are the three edge functions
+/// x_(i+2)·y_(i+1) − y_(i+2)·x_(i+1) over their sum. Where one is zero as computed, the rounding
+/// errors of its products decide, so that every edge's sign is exact.
+///
+/// **Grade: watertight.** No ray slips between two triangles that share an edge or a vertex
+/// (the same floats in both): the ray hits at least one of the triangles around it. This holds
+/// where no difference of coordinates overflows and the range's ends are away from the surface. The
+/// verdict near an edge is not always that of exact arithmetic: it is the exact one for vertices
+/// moved across the ray by at most 4u times their distance from the origin (the largest component),
+/// u = EPSILON/2. So are u and v, with 6u of rounding added, and t, with 9u of the largest |t| of the
+/// three vertices.
+///
+/// A triangle without area as seen along the ray, a zero direction, a NaN or infinite field: a miss.
+///
+/// ```
+/// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::watertight::{self, ShearedRay}};
+///
+/// // Down the common edge of two triangles.
+/// let [a, b, c, d] = [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y];
+/// let ray = ShearedRay::new(&Ray::new(Vec3::new(0.3, 0.3, 2.0), Vec3::new(0.1, 0.1, -1.0)));
+/// let hits = [[a, b, c], [a, c, d]].map(|t| watertight::intersect(&ray, &t.into()).is_some());
+/// assert!(hits[0] || hits[1]);
+/// ```
+#[inline]
+#[must_use]
+pub fn intersect<V: Vector>(
+    ray: &ShearedRay<V>,
+    triangle: &Triangle<V>,
+) -> Option<TriangleHit<V::Scalar>> {
+    let sheared = ray.sheared(triangle);
+    let weights = sheared.weights();
+    let determinant = weights.x() + weights.y() + weights.z();
+    if !determinant.is_mid_range() {
+        return extreme(ray, &sheared);
+    }
+    sheared.found(ray, weights, determinant).into_option()
+}
+
+/// x, y and z of the three vertices.
+struct Sheared<V> {
+    x: V,
+    y: V,
+    z: V,
+}
+
+impl<V: Vector> Sheared<V> {
+    /// The three edge functions, each named after the vertex across, with exact signs.
+    #[inline(always)]
+    fn weights(&self) -> V {
+        // A difference of rounded products that is not zero has the sign of the exact one:
+        // rounding keeps order.
+        let weights = self.y.cross(self.x);
+        let zero = V::Scalar::ZERO;
+        if weights.x() == zero || weights.y() == zero || weights.z() == zero {
+            return self.weights_of_zero();
+        }
+        weights
+    }
+
+    #[cold]
+    fn weights_of_zero(&self) -> V {
+        let Self { x, y, .. } = *self;
+        V::new(
+            difference_of_products(y.y(), x.z(), y.z(), x.y()),
+            difference_of_products(y.z(), x.x(), y.x(), x.z()),
+            difference_of_products(y.x(), x.y(), y.y(), x.x()),
+        )
+    }
+
+    #[inline(always)]
+    fn found(&self, ray: &ShearedRay<V>, weights: V, determinant: V::Scalar) -> Found<V::Scalar> {
+        let zero = V::Scalar::ZERO;
+        let inverse = V::Scalar::ONE / determinant;
+        let scaled = weights * inverse;
+        let (w, u, v) = (scaled.x(), scaled.y(), scaled.z());
+        let t = scaled.dot(self.z) * ray.inverse * ray.t_scale;
+        let inside = zero.le(w) & zero.le(u) & zero.le(v);
+        let hit = inside & in_range(t, ray.t_min, ray.t_max);
+        // Looking along the axis, or against it, the vertices turn the other way.
+        let front = zero.lt(determinant) == zero.lt(ray.inverse);
+        Found {
+            hit,
+            t,
+            u,
+            v,
+            front,
+        }
+    }
+}
+
+/// The weights' sum has left the middle of the range of exponents, or is zero: once more with x and
+/// y scaled by a power of two, so large that the errors of products of small numbers do not vanish.
+#[cold]
+fn extreme<V: Vector>(ray: &ShearedRay<V>, sheared: &Sheared<V>) -> Option<TriangleHit<V::Scalar>> {
+    let Sheared { x, y, z } = *sheared;
+    if !(x.is_finite() && y.is_finite() && z.is_finite()) {
+        return None;
+    }
+    let scale = x.abs().max(y.abs()).max_element().normalizer();
+    let sheared = Sheared {
+        x: x * scale,
+        y: y * scale,
+        z,
+    };
+    let weights = sheared.weights();
+    let determinant = weights.x() + weights.y() + weights.z();
+    let found = sheared.found(ray, weights, determinant).into_option();
+    found.filter(|_| determinant != V::Scalar::ZERO)
+}

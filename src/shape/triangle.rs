@@ -1,0 +1,73 @@
+//! The triangle of three vertices.
+
+use glam::Vec3;
+
+use super::Aabb;
+use crate::vector::{Coordinates, Scalar, Vector};
+
+/// The closed triangle of three vertices. Edge i joins vertex i to vertex i + 1 (modulo 3).
+///
+/// A triangle with an infinite or NaN vertex is never hit.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[repr(C)]
+pub struct Triangle<V: Coordinates = Vec3> {
+    /// The vertex with barycentric coordinates (1, 0, 0).
+    pub v0: V,
+    /// The vertex with barycentric coordinates (0, 1, 0), where u = 1.
+    pub v1: V,
+    /// The vertex with barycentric coordinates (0, 0, 1), where v = 1.
+    pub v2: V,
+}
+
+impl<V: Vector> Triangle<V> {
+    /// The triangle of three vertices.
+    #[inline]
+    #[must_use]
+    pub const fn new(v0: V, v1: V, v2: V) -> Self {
+        Self { v0, v1, v2 }
+    }
+
+    /// (v1 − v0) × (v2 − v0): twice the area long, not normalised. It points to the side from
+    /// which the vertices run counter-clockwise.
+    #[inline]
+    #[must_use]
+    pub fn normal(&self) -> V {
+        (self.v1 - self.v0).cross(self.v2 - self.v0)
+    }
+
+    /// The area.
+    #[inline]
+    #[must_use]
+    pub fn area(&self) -> V::Scalar {
+        let two = V::Scalar::ONE + V::Scalar::ONE;
+        self.normal().length() / two
+    }
+
+    /// The smallest box around the vertices, exactly. A NaN component is left out.
+    #[inline]
+    #[must_use]
+    pub fn aabb(&self) -> Aabb<V> {
+        Aabb::from_points([self.v0, self.v1, self.v2])
+    }
+
+    /// The point (1 − u − v)·v0 + u·v1 + v·v2.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, u: V::Scalar, v: V::Scalar) -> V {
+        self.v0 * (V::Scalar::ONE - u - v) + self.v1 * u + self.v2 * v
+    }
+}
+
+impl<V: Vector> From<[V; 3]> for Triangle<V> {
+    #[inline]
+    fn from([v0, v1, v2]: [V; 3]) -> Self {
+        Self { v0, v1, v2 }
+    }
+}
+
+impl<V: Vector> From<Triangle<V>> for [V; 3] {
+    #[inline]
+    fn from(triangle: Triangle<V>) -> Self {
+        [triangle.v0, triangle.v1, triangle.v2]
+    }
+}

@@ -1,0 +1,554 @@
+//! What a kernel may ask of its numbers and vectors.
+//!
+//! A kernel body is written once, against [`Number`] and [`Coordinates`], with masks in the place
+//! of branches: a `Number` is one float or several side by side, and a comparison gives a mask with
+//! as many lanes. [`Scalar`] and [`Vector`] narrow them to one float, which is what a user of the
+//! crate holds: `f32` and `f64`, glam's `Vec3`, `Vec3A` and `DVec3`. All four traits are sealed.
+
+use core::fmt::Debug;
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use glam::{BVec3, BVec3A, DVec3, Vec3, Vec3A, Vec3Swizzles};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+    impl Sealed for glam::Vec3 {}
+    impl Sealed for glam::Vec3A {}
+    impl Sealed for glam::DVec3 {}
+}
+
+/// The answer of a comparison: one truth value per lane.
+pub trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+}
+
+impl Mask for bool {}
+
+/// A number, or several side by side in lanes, as a kernel body sees it.
+///
+/// Comparisons with a NaN are false, as in IEEE 754.
+pub trait Number:
+    sealed::Sealed
+    + Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// One truth value per lane.
+    type Mask: Mask;
+
+    /// The literal `value` in every lane. Constants come from a value, so that the lanes (and with
+    /// them the processor's level) need not be named.
+    #[must_use]
+    fn lit(self, value: f64) -> Self;
+
+    /// The largest finite number, in every lane.
+    #[must_use]
+    fn largest(self) -> Self;
+
+    /// `self < other`
+    #[must_use]
+    fn lt(self, other: Self) -> Self::Mask;
+
+    /// `self <= other`
+    #[must_use]
+    fn le(self, other: Self) -> Self::Mask;
+
+    /// `if_true` where `mask` holds, `if_false` elsewhere.
+    #[must_use]
+    fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
+
+    /// The absolute value.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// The square root, correctly rounded; NaN of a negative number.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// `if self < other { self } else { other }`: a NaN in `self` is dropped, one in `other` stays.
+    /// (It is what the processor's instruction does. Kernels lean on it in both directions.)
+    #[must_use]
+    fn min(self, other: Self) -> Self;
+
+    /// `if self > other { self } else { other }`: a NaN in `self` is dropped, one in `other` stays.
+    #[must_use]
+    fn max(self, other: Self) -> Self;
+
+    /// `(p, e)` with `p` the rounded product and `e` its rounding error: `p + e = self · other`,
+    /// exactly, unless the product comes close to the ends of the exponent range.
+    #[must_use]
+    fn two_product(self, other: Self) -> (Self, Self);
+
+    /// Whether the magnitude lies well inside the range of exponents, between 2⁻⁸⁰ and 2⁸⁰ (2⁻⁶⁰⁰
+    /// and 2⁶⁰⁰ for `f64`): where a computed sum of products is not, over- and underflow may have
+    /// spoilt it.
+    #[must_use]
+    fn is_mid_range(self) -> Self::Mask;
+
+    /// The power of two that brings `|self|` into [1, 2), as far as it is a normal number: [1, 4)
+    /// for the largest numbers, less than 1 for subnormal ones.
+    #[must_use]
+    fn normalizer(self) -> Self;
+}
+
+/// One float: `f32` or `f64`.
+pub trait Scalar:
+    Number<Mask = bool> + PartialOrd + Default + From<f32> + Into<f64> + Send + Sync + 'static
+{
+    /// 0
+    const ZERO: Self;
+    /// 1
+    const ONE: Self;
+    /// The distance from 1 to the next larger number, 2⁻²³ or 2⁻⁵².
+    const EPSILON: Self;
+    /// Positive infinity.
+    const INFINITY: Self;
+    /// The largest finite number.
+    const MAX: Self;
+    /// The smallest positive normal number.
+    const MIN_POSITIVE: Self;
+
+    /// The next larger number.
+    #[must_use]
+    fn next_up(self) -> Self;
+
+    /// The next smaller number.
+    #[must_use]
+    fn next_down(self) -> Self;
+
+    /// Neither infinite nor NaN.
+    #[must_use]
+    fn is_finite(self) -> bool;
+
+    /// The sum, rounded towards −∞ instead of to nearest.
+    #[must_use]
+    #[inline]
+    fn add_down(self, other: Self) -> Self {
+        let (sum, error) = two_sum(self, other);
+        if error < Self::ZERO {
+            sum.next_down()
+        } else {
+            sum
+        }
+    }
+
+    /// The sum, rounded towards +∞ instead of to nearest.
+    #[must_use]
+    #[inline]
+    fn add_up(self, other: Self) -> Self {
+        let (sum, error) = two_sum(self, other);
+        if error > Self::ZERO {
+            sum.next_up()
+        } else {
+            sum
+        }
+    }
+}
+
+/// `(s, e)` with `s` the rounded sum and `e` its rounding error, NaN if `s` overflows (Knuth, The
+/// Art of Computer Programming, volume 2, 4.2.2).
+#[inline(always)]
+fn two_sum<N: Number>(a: N, b: N) -> (N, N) {
+    let sum = a + b;
+    let b_part = sum - a;
+    (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+macro_rules! scalar {
+    ($t:ident, $mantissa_bits:literal, $max_exponent:literal, $mid_range:expr, $sqrt:path, $two_product:path) => {
+        impl Number for $t {
+            type Mask = bool;
+
+            // A literal rounds to the nearest `f32`, as one written in the code does.
+            #[allow(clippy::cast_possible_truncation)]
+            #[inline(always)]
+            fn lit(self, value: f64) -> Self {
+                value as $t
+            }
+            #[inline(always)]
+            fn largest(self) -> Self {
+                $t::MAX
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+                if mask { if_true } else { if_false }
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $t::abs(self)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn two_product(self, other: Self) -> (Self, Self) {
+                $two_product(self, other)
+            }
+            #[allow(clippy::cast_possible_truncation)] // powers of two that f32 has
+            #[inline(always)]
+            fn is_mid_range(self) -> bool {
+                let magnitude = $t::abs(self);
+                (magnitude >= $mid_range.0) & (magnitude <= $mid_range.1)
+            }
+            #[inline(always)]
+            fn normalizer(self) -> Self {
+                let biased = (self.to_bits() >> $mantissa_bits) & $max_exponent;
+                let inverse = ($max_exponent - 1 - biased.min($max_exponent - 2)).max(1);
+                $t::from_bits(inverse << $mantissa_bits)
+            }
+        }
+
+        impl Scalar for $t {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const EPSILON: Self = $t::EPSILON;
+            const INFINITY: Self = $t::INFINITY;
+            const MAX: Self = $t::MAX;
+            const MIN_POSITIVE: Self = $t::MIN_POSITIVE;
+
+            #[inline(always)]
+            fn next_up(self) -> Self {
+                $t::next_up(self)
+            }
+            #[inline(always)]
+            fn next_down(self) -> Self {
+                $t::next_down(self)
+            }
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $t::is_finite(self)
+            }
+        }
+    };
+}
+
+/// `f64` holds the product of two `f32` exactly.
+#[allow(clippy::cast_possible_truncation)] // the rounding is the point
+#[inline(always)]
+fn two_product_f32(a: f32, b: f32) -> (f32, f32) {
+    let exact = f64::from(a) * f64::from(b);
+    let product = exact as f32;
+    (product, (exact - f64::from(product)) as f32)
+}
+
+/// Dekker's product with Veltkamp's splitting (T. J. Dekker, "A floating-point technique for
+/// extending the available precision", 1971): needs no fused multiply-add, which the default
+/// x86-64 target does not have.
+#[inline(always)]
+fn two_product_f64(a: f64, b: f64) -> (f64, f64) {
+    let split = |x: f64| {
+        let c = 134_217_729.0 * x; // 2^27 + 1
+        let high = c - (c - x);
+        (high, x - high)
+    };
+    let product = a * b;
+    let (a_high, a_low) = split(a);
+    let (b_high, b_low) = split(b);
+    let error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+    (product, error)
+}
+
+#[cfg(feature = "std")]
+use std::primitive::{f32 as root32, f64 as root64};
+
+#[cfg(not(feature = "std"))]
+mod root32 {
+    pub(super) use libm::sqrtf as sqrt;
+}
+#[cfg(not(feature = "std"))]
+mod root64 {
+    pub(super) use libm::sqrt;
+}
+
+/// 2 to the power of a normal exponent.
+const fn pow2(exponent: i64) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+scalar!(
+    f32,
+    23,
+    0xff,
+    (pow2(-80) as f32, pow2(80) as f32),
+    root32::sqrt,
+    two_product_f32
+);
+scalar!(
+    f64,
+    52,
+    0x7ff,
+    (pow2(-600), pow2(600)),
+    root64::sqrt,
+    two_product_f64
+);
+
+/// Three numbers x, y, z (or three times several, side by side in lanes), as a kernel body sees
+/// them.
+pub trait Coordinates:
+    sealed::Sealed
+    + Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Neg<Output = Self>
+    + Mul<Self::Scalar, Output = Self>
+{
+    /// The type of one component.
+    type Scalar: Number;
+
+    /// One truth value per component (and lane).
+    type Mask3: Copy + Debug;
+
+    /// The vector (x, y, z).
+    #[must_use]
+    fn new(x: Self::Scalar, y: Self::Scalar, z: Self::Scalar) -> Self;
+
+    /// The vector (value, value, value).
+    #[must_use]
+    fn splat(value: Self::Scalar) -> Self;
+
+    /// The first component.
+    #[must_use]
+    fn x(self) -> Self::Scalar;
+
+    /// The second component.
+    #[must_use]
+    fn y(self) -> Self::Scalar;
+
+    /// The third component.
+    #[must_use]
+    fn z(self) -> Self::Scalar;
+
+    /// The product of each component with the one of `other`.
+    #[must_use]
+    fn scaled(self, other: Self) -> Self;
+
+    /// The quotient of each component by the one of `other`.
+    #[must_use]
+    fn divided(self, other: Self) -> Self;
+
+    /// `(x·x′ + y·y′) + z·z′`
+    #[must_use]
+    fn dot(self, other: Self) -> Self::Scalar;
+
+    /// The cross product. Its six products are rounded one by one, whatever the processor: so
+    /// `a.cross(b)` is the negative of `b.cross(a)` to the last bit, which a fused multiply-add
+    /// would not give.
+    #[must_use]
+    fn cross(self, other: Self) -> Self;
+
+    /// (y, z, x)
+    #[must_use]
+    fn yzx(self) -> Self;
+
+    /// (z, x, y)
+    #[must_use]
+    fn zxy(self) -> Self;
+
+    /// The absolute value of each component.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// [`Number::min`] of each component: a NaN in `self` is dropped, one in `other` stays.
+    #[must_use]
+    fn min(self, other: Self) -> Self;
+
+    /// [`Number::max`] of each component: a NaN in `self` is dropped, one in `other` stays.
+    #[must_use]
+    fn max(self, other: Self) -> Self;
+
+    /// The least component, if none is NaN.
+    #[must_use]
+    fn min_element(self) -> Self::Scalar;
+
+    /// The greatest component, if none is NaN.
+    #[must_use]
+    fn max_element(self) -> Self::Scalar;
+
+    /// Which components are less than those of `other`.
+    #[must_use]
+    fn less(self, other: Self) -> Self::Mask3;
+
+    /// Whether each component is at most the one of `other`; false if one is NaN.
+    #[must_use]
+    fn all_le(self, other: Self) -> <Self::Scalar as Number>::Mask;
+
+    /// The components of `if_true` where `mask` holds, of `if_false` elsewhere.
+    #[must_use]
+    fn select(mask: Self::Mask3, if_true: Self, if_false: Self) -> Self;
+}
+
+/// Three floats: glam's `Vec3`, `Vec3A` or `DVec3`.
+pub trait Vector:
+    Coordinates<Scalar: Scalar, Mask3: Send + Sync> + PartialEq + Default + Send + Sync + 'static
+{
+    /// (0, 0, 0)
+    const ZERO: Self;
+    /// (∞, ∞, ∞)
+    const INFINITY: Self;
+    /// (−∞, −∞, −∞)
+    const NEG_INFINITY: Self;
+
+    /// The component `axis`: 0, 1, and for anything else 2.
+    #[must_use]
+    #[inline(always)]
+    fn component(self, axis: usize) -> Self::Scalar {
+        match axis {
+            0 => self.x(),
+            1 => self.y(),
+            _ => self.z(),
+        }
+    }
+
+    /// The vector of `f` applied to each component.
+    #[must_use]
+    #[inline(always)]
+    fn map(self, f: impl Fn(Self::Scalar) -> Self::Scalar) -> Self {
+        Self::new(f(self.x()), f(self.y()), f(self.z()))
+    }
+
+    /// The Euclidean length, with no over- or underflow on the way.
+    #[must_use]
+    #[inline]
+    fn length(self) -> Self::Scalar {
+        let scale = Coordinates::abs(self).max_element().normalizer();
+        let unit = self * scale;
+        unit.dot(unit).sqrt() / scale
+    }
+
+    /// Whether no component is infinite or NaN.
+    #[must_use]
+    fn is_finite(self) -> bool;
+}
+
+macro_rules! vector {
+    ($v:ident, $scalar:ident, $mask:ident, $cross:expr) => {
+        impl Coordinates for $v {
+            type Scalar = $scalar;
+            type Mask3 = $mask;
+
+            #[inline(always)]
+            fn new(x: $scalar, y: $scalar, z: $scalar) -> Self {
+                $v::new(x, y, z)
+            }
+            #[inline(always)]
+            fn splat(value: $scalar) -> Self {
+                $v::splat(value)
+            }
+            #[inline(always)]
+            fn x(self) -> $scalar {
+                self.x
+            }
+            #[inline(always)]
+            fn y(self) -> $scalar {
+                self.y
+            }
+            #[inline(always)]
+            fn z(self) -> $scalar {
+                self.z
+            }
+            #[inline(always)]
+            fn scaled(self, other: Self) -> Self {
+                self * other
+            }
+            #[inline(always)]
+            fn divided(self, other: Self) -> Self {
+                self / other
+            }
+            #[inline(always)]
+            fn dot(self, other: Self) -> $scalar {
+                $v::dot(self, other)
+            }
+            #[inline(always)]
+            fn cross(self, other: Self) -> Self {
+                // glam's own would fuse one product of each pair where the processor can.
+                $cross(self, other)
+            }
+            #[inline(always)]
+            fn yzx(self) -> Self {
+                Vec3Swizzles::yzx(self)
+            }
+            #[inline(always)]
+            fn zxy(self) -> Self {
+                Vec3Swizzles::zxy(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $v::abs(self)
+            }
+            // glam's min and max differ in what they do with a NaN from one version and
+            // processor to the next: these are the comparisons that the trait promises, and
+            // they still become one instruction where there is one.
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                $v::select(self.cmplt(other), self, other)
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                $v::select(self.cmpgt(other), self, other)
+            }
+            #[inline(always)]
+            fn min_element(self) -> $scalar {
+                $v::min_element(self)
+            }
+            #[inline(always)]
+            fn max_element(self) -> $scalar {
+                $v::max_element(self)
+            }
+            #[inline(always)]
+            fn less(self, other: Self) -> $mask {
+                self.cmplt(other)
+            }
+            #[inline(always)]
+            fn all_le(self, other: Self) -> bool {
+                self.cmple(other).all()
+            }
+            #[inline(always)]
+            fn select(mask: $mask, if_true: Self, if_false: Self) -> Self {
+                $v::select(mask, if_true, if_false)
+            }
+        }
+
+        impl Vector for $v {
+            const ZERO: Self = $v::ZERO;
+            const INFINITY: Self = $v::INFINITY;
+            const NEG_INFINITY: Self = $v::NEG_INFINITY;
+
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $v::is_finite(self)
+            }
+        }
+    };
+}
+
+vector!(Vec3, f32, BVec3, Vec3::cross);
+vector!(DVec3, f64, BVec3, DVec3::cross);
+vector!(Vec3A, f32, BVec3A, |a: Vec3A, b: Vec3A| {
+    let (a_zxy, b_zxy) = (Coordinates::zxy(a), Coordinates::zxy(b));
+    Coordinates::zxy(a_zxy * b - a * b_zxy)
+});
