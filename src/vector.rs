@@ -373,11 +373,11 @@ pub trait Coordinates:
     #[must_use]
     fn abs(self) -> Self;
 
-    /// [`Number::min`] of each component: a NaN in `self` is dropped, one in `other` stays.
+    /// The lesser of each two components; either of them where one is NaN.
     #[must_use]
     fn min(self, other: Self) -> Self;
 
-    /// [`Number::max`] of each component: a NaN in `self` is dropped, one in `other` stays.
+    /// The greater of each two components; either of them where one is NaN.
     #[must_use]
     fn max(self, other: Self) -> Self;
 
@@ -388,6 +388,22 @@ pub trait Coordinates:
     /// The greatest component, if none is NaN.
     #[must_use]
     fn max_element(self) -> Self::Scalar;
+
+    /// The least of the components and `start`, by [`Number::min`]: NaN components are dropped, a NaN
+    /// in `start` stays.
+    #[must_use]
+    #[inline(always)]
+    fn fold_min(self, start: Self::Scalar) -> Self::Scalar {
+        self.z().min(self.y().min(self.x().min(start)))
+    }
+
+    /// The greatest of the components and `start`, by [`Number::max`]: NaN components are dropped, a
+    /// NaN in `start` stays.
+    #[must_use]
+    #[inline(always)]
+    fn fold_max(self, start: Self::Scalar) -> Self::Scalar {
+        self.z().max(self.y().max(self.x().max(start)))
+    }
 
     /// Which components are less than those of `other`.
     #[must_use]
@@ -500,16 +516,15 @@ macro_rules! vector {
             fn abs(self) -> Self {
                 $v::abs(self)
             }
-            // glam's min and max differ in what they do with a NaN from one version and
-            // processor to the next: these are the comparisons that the trait promises, and
-            // they still become one instruction where there is one.
+            // glam's min, max, min_element and max_element differ in what they do with a NaN from
+            // one version and processor to the next: kernels that may meet one fold.
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                $v::select(self.cmplt(other), self, other)
+                $v::min(self, other)
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                $v::select(self.cmpgt(other), self, other)
+                $v::max(self, other)
             }
             #[inline(always)]
             fn min_element(self) -> $scalar {

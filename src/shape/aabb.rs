@@ -69,8 +69,8 @@ impl<V: Vector> Aabb<V> {
     #[must_use]
     pub fn including(&self, point: V) -> Self {
         Self {
-            min: point.min(self.min),
-            max: point.max(self.max),
+            min: V::select(point.less(self.min), point, self.min),
+            max: V::select(self.max.less(point), point, self.max),
         }
     }
 

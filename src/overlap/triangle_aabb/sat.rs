@@ -39,7 +39,7 @@ pub fn overlaps<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> bool {
         triangle.v0.max(triangle.v1.max(triangle.v2)),
     );
     let (min, max) = (low.max(aabb.min), high.min(aabb.max));
-    if !min.all_le(max) {
+    if !(min.all_le(max) & aabb.min.all_le(aabb.max)) {
         return false;
     }
     let size = (high - low).max_element();

@@ -63,12 +63,8 @@ fn bounds<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V::Scalar, V::Scalar) 
         let (near, far) = ray.differences(aabb);
         (near.scaled(ray.near_inverse), far.scaled(ray.far_inverse))
     };
-    // 0 · ∞, a parallel ray in a plane of the box, is NaN, which `max` and `min` drop in their
-    // first operand; a NaN end of the range stays.
-    (
-        near.max(V::splat(ray.t_min)).max_element(),
-        far.min(V::splat(ray.t_max)).min_element(),
-    )
+    // For a parallel ray in a plane of the box a bound is 0 · ∞, a NaN, which folding drops.
+    (near.fold_max(ray.t_min), far.fold_min(ray.t_max))
 }
 
 /// The slabs' bounds, moved outward whatever their sign.

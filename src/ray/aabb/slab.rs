@@ -34,7 +34,8 @@ use crate::vector::{Number, Scalar, Vector};
 #[must_use]
 pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V::Scalar>> {
     let (near, far) = slabs(ray, aabb);
-    let (last_entry, first_exit) = (near.max_element(), far.min_element());
+    let infinity = V::Scalar::INFINITY;
+    let (last_entry, first_exit) = (near.fold_max(-infinity), far.fold_min(infinity));
     let (t_enter, t_exit) = (last_entry.max(ray.t_min), first_exit.min(ray.t_max));
     if !overlap(aabb, t_enter, t_exit) {
         return None;
@@ -73,23 +74,18 @@ pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V
 #[must_use]
 pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
     let (near, far) = slabs(ray, aabb);
-    let t_enter = near.max_element().max(ray.t_min);
-    let t_exit = far.min_element().min(ray.t_max);
-    overlap(aabb, t_enter, t_exit)
+    overlap(aabb, near.fold_max(ray.t_min), far.fold_min(ray.t_max))
 }
 
-/// The t at which the ray enters and leaves each slab.
+/// The t at which the ray enters and leaves each slab. For a parallel ray in a plane of the box one
+/// is 0 · ∞, a NaN, which folding drops.
 #[inline(always)]
 fn slabs<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V, V) {
     if ray.extreme {
         return ray.quotients(aabb);
     }
     let (near, far) = ray.differences(aabb);
-    // 0 · ∞, a parallel ray in a plane of the box, is NaN, which `max` and `min` drop.
-    (
-        near.scaled(ray.inverse).max(V::NEG_INFINITY),
-        far.scaled(ray.inverse).min(V::INFINITY),
-    )
+    (near.scaled(ray.inverse), far.scaled(ray.inverse))
 }
 
 /// Whether what is left of the range is not empty. The entry of a parallel ray outside of its slab
