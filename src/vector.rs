@@ -132,11 +132,7 @@ pub trait Scalar:
     #[inline]
     fn add_down(self, other: Self) -> Self {
         let (sum, error) = two_sum(self, other);
-        if error < Self::ZERO {
-            sum.next_down()
-        } else {
-            sum
-        }
+        if error < Self::ZERO { sum.next_down() } else { sum }
     }
 
     /// The sum, rounded towards +∞ instead of to nearest.
@@ -144,11 +140,7 @@ pub trait Scalar:
     #[inline]
     fn add_up(self, other: Self) -> Self {
         let (sum, error) = two_sum(self, other);
-        if error > Self::ZERO {
-            sum.next_up()
-        } else {
-            sum
-        }
+        if error > Self::ZERO { sum.next_up() } else { sum }
     }
 }
 
@@ -289,22 +281,8 @@ const fn pow2(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-scalar!(
-    f32,
-    23,
-    0xff,
-    (pow2(-80) as f32, pow2(80) as f32),
-    root32::sqrt,
-    two_product_f32
-);
-scalar!(
-    f64,
-    52,
-    0x7ff,
-    (pow2(-600), pow2(600)),
-    root64::sqrt,
-    two_product_f64
-);
+scalar!(f32, 23, 0xff, (pow2(-80) as f32, pow2(80) as f32), root32::sqrt, two_product_f32);
+scalar!(f64, 52, 0x7ff, (pow2(-600), pow2(600)), root64::sqrt, two_product_f64);
 
 /// Three numbers x, y, z (or three times several, side by side in lanes), as a kernel body sees
 /// them.

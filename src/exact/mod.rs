@@ -12,11 +12,7 @@ use crate::vector::Scalar;
 pub(crate) fn difference_of_products<T: Scalar>(a: T, b: T, c: T, d: T) -> T {
     let (ab, ab_error) = a.two_product(b);
     let (cd, cd_error) = c.two_product(d);
-    if ab == cd {
-        ab_error - cd_error
-    } else {
-        ab - cd
-    }
+    if ab == cd { ab_error - cd_error } else { ab - cd }
 }
 
 #[cfg(test)]
@@ -28,20 +24,11 @@ mod tests {
         let (a, b) = (1.0 + f32::EPSILON, 1.0 - f32::EPSILON);
         // a·b = 1 − ε², which rounds to 1.
         assert_eq!(a * b, 1.0);
-        assert_eq!(
-            difference_of_products(a, b, 1.0, 1.0),
-            -f32::EPSILON * f32::EPSILON
-        );
-        assert_eq!(
-            difference_of_products(1.0, 1.0, a, b),
-            f32::EPSILON * f32::EPSILON
-        );
+        assert_eq!(difference_of_products(a, b, 1.0, 1.0), -f32::EPSILON * f32::EPSILON);
+        assert_eq!(difference_of_products(1.0, 1.0, a, b), f32::EPSILON * f32::EPSILON);
         let (a, b) = (1.0 + f64::EPSILON, 1.0 - f64::EPSILON);
         assert_eq!(a * b, 1.0);
-        assert_eq!(
-            difference_of_products(a, b, 1.0, 1.0),
-            -f64::EPSILON * f64::EPSILON
-        );
+        assert_eq!(difference_of_products(a, b, 1.0, 1.0), -f64::EPSILON * f64::EPSILON);
         assert_eq!(difference_of_products(3.0, 5.0, 5.0, 3.0), 0.0);
     }
 }

@@ -31,7 +31,8 @@ impl<V: Vector> Intersect<V> for Plane<V> {
 /// the products' magnitudes), and the quotient adds u. Which of the three outcomes is reported is
 /// certain beyond these errors.
 ///
-/// A zero direction, a zero normal, a NaN or infinite field, an empty range: a miss.
+/// A zero direction, a zero normal, a NaN or infinite field, an empty range: a miss. So is a t beyond
+/// the largest float.
 ///
 /// ```
 /// use isect::{Plane, Ray, glam::Vec3, ray::plane::{self, PlaneHit}};
@@ -53,33 +54,29 @@ pub fn intersect<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V
     in_range(t, ray.t_min, ray.t_max).then_some(PlaneHit::At(t))
 }
 
+const TWO_TO_60: f64 = 1_152_921_504_606_846_976.0;
+
 /// t as a fraction.
 #[inline(always)]
 fn fraction<V: Coordinates>(ray: &Ray<V>, plane: &Plane<V>) -> (V::Scalar, V::Scalar) {
-    (
-        plane.offset - plane.normal.dot(ray.origin),
-        plane.normal.dot(ray.direction),
-    )
+    (plane.offset - plane.normal.dot(ray.origin), plane.normal.dot(ray.direction))
 }
 
 /// A denominator of zero, or one that has left the range of exponents in which products neither
-/// over- nor underflow: decides again with the normal and the direction brought to a length of
-/// about 1 by powers of two.
+/// over- nor underflow: decides again with a direction of about 2⁶⁰, which makes the products of its
+/// small components large enough, and with a normal of moderate length, by powers of two.
 #[cold]
 fn parallel_or_extreme<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V::Scalar>> {
     if !(ray.is_valid() && plane.is_valid()) {
         return None;
     }
-    let scale = Coordinates::abs(plane.normal).max_element().normalizer();
-    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
-    let plane = Plane {
-        normal: plane.normal * scale,
-        offset: plane.offset * scale,
-    };
-    let unit_ray = Ray {
-        direction: ray.direction * t_scale,
-        ..*ray
-    };
+    let one = V::Scalar::ONE;
+    let longest = Coordinates::abs(plane.normal).max_element();
+    let scale = if (longest * longest).is_mid_range() { one } else { longest.normalizer() };
+    let large = one.lit(TWO_TO_60);
+    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer() * large;
+    let plane = Plane { normal: plane.normal * scale, offset: plane.offset * scale };
+    let unit_ray = Ray { direction: ray.direction * t_scale, ..*ray };
     let (numerator, denominator) = fraction(&unit_ray, &plane);
     if denominator == V::Scalar::ZERO {
         let contained = numerator == V::Scalar::ZERO && ray.t_min <= ray.t_max;

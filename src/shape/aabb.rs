@@ -27,10 +27,7 @@ impl<V: Vector> Default for Aabb<V> {
 
 impl<V: Vector> Aabb<V> {
     /// The empty box from +∞ to −∞, which a union leaves out.
-    pub const EMPTY: Self = Self {
-        min: V::INFINITY,
-        max: V::NEG_INFINITY,
-    };
+    pub const EMPTY: Self = Self { min: V::INFINITY, max: V::NEG_INFINITY };
 
     /// The box between two corners.
     #[inline]
@@ -44,9 +41,7 @@ impl<V: Vector> Aabb<V> {
     #[inline]
     #[must_use]
     pub fn from_points(points: impl IntoIterator<Item = V>) -> Self {
-        points
-            .into_iter()
-            .fold(Self::EMPTY, |aabb, point| aabb.including(point))
+        points.into_iter().fold(Self::EMPTY, |aabb, point| aabb.including(point))
     }
 
     /// The box that reaches from `center` by `half_extents` to either side, rounded outward where
@@ -81,10 +76,7 @@ impl<V: Vector> Aabb<V> {
         match (self.is_empty(), other.is_empty()) {
             (true, _) => *other,
             (_, true) => *self,
-            _ => Self {
-                min: self.min.min(other.min),
-                max: self.max.max(other.max),
-            },
+            _ => Self { min: self.min.min(other.min), max: self.max.max(other.max) },
         }
     }
 
@@ -95,10 +87,7 @@ impl<V: Vector> Aabb<V> {
         if self.is_empty() {
             return *self;
         }
-        Self {
-            min: self.min.max(other.min),
-            max: self.max.min(other.max),
-        }
+        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
     /// The point half-way between the corners. Meaningless (a NaN, or some point) for an empty or
@@ -114,11 +103,7 @@ impl<V: Vector> Aabb<V> {
     #[inline]
     #[must_use]
     pub fn size(&self) -> V {
-        if self.is_empty() {
-            V::ZERO
-        } else {
-            self.max - self.min
-        }
+        if self.is_empty() { V::ZERO } else { self.max - self.min }
     }
 
     /// The area of the six faces, 2·(x·y + y·z + z·x) of the size; zero for an empty box.
@@ -166,11 +151,7 @@ impl<V: Vector> Aabb<V> {
     #[inline]
     #[must_use]
     pub fn inflated(&self, amount: V::Scalar) -> Self {
-        if self.is_empty() {
-            *self
-        } else {
-            self.grown(V::splat(amount))
-        }
+        if self.is_empty() { *self } else { self.grown(V::splat(amount)) }
     }
 
     /// The eight corners; bit 0, 1 or 2 of the index chooses `max` over `min` on axis x, y or z.
@@ -179,11 +160,7 @@ impl<V: Vector> Aabb<V> {
     pub fn corners(&self) -> [V; 8] {
         core::array::from_fn(|i| {
             let corner = |bit: usize| {
-                if i >> bit & 1 == 0 {
-                    self.min
-                } else {
-                    self.max
-                }
+                if i >> bit & 1 == 0 { self.min } else { self.max }
             };
             V::new(corner(0).x(), corner(1).y(), corner(2).z())
         })
@@ -218,18 +195,11 @@ impl<V: Vector> Aabb<V> {
             let error = magnitude * V::Scalar::EPSILON.lit(2.5) * V::Scalar::EPSILON
                 + V::Scalar::MIN_POSITIVE;
             let bound = (sum + shift).add_down(-error);
-            if bound.is_finite() {
-                bound
-            } else {
-                -V::Scalar::INFINITY
-            }
+            if bound.is_finite() { bound } else { -V::Scalar::INFINITY }
         };
         let one = V::Scalar::ONE;
         let image = |sign| V::new(least(0, sign), least(1, sign), least(2, sign));
-        Self {
-            min: image(one),
-            max: -image(-one),
-        }
+        Self { min: image(one), max: -image(-one) }
     }
 
     /// Moves the faces outward by the components of `amount`, rounded outward.
@@ -237,16 +207,10 @@ impl<V: Vector> Aabb<V> {
     fn grown(&self, amount: V) -> Self {
         let bounds = |axis: usize| {
             let amount = amount.component(axis);
-            (
-                self.min.component(axis).add_down(-amount),
-                self.max.component(axis).add_up(amount),
-            )
+            (self.min.component(axis).add_down(-amount), self.max.component(axis).add_up(amount))
         };
         let [(x0, x1), (y0, y1), (z0, z1)] = [bounds(0), bounds(1), bounds(2)];
-        Self {
-            min: V::new(x0, y0, z0),
-            max: V::new(x1, y1, z1),
-        }
+        Self { min: V::new(x0, y0, z0), max: V::new(x1, y1, z1) }
     }
 }
 

@@ -48,10 +48,7 @@ impl<V: Vector> Plane<V> {
     #[inline]
     #[must_use]
     pub fn from_hesse(n: V, d: V::Scalar) -> Option<Self> {
-        let plane = Self {
-            normal: n,
-            offset: d,
-        };
+        let plane = Self { normal: n, offset: d };
         plane.is_valid().then_some(plane)
     }
 

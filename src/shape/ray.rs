@@ -36,12 +36,7 @@ impl<V: Vector> Ray<V> {
     #[must_use]
     pub const fn new(origin: V, direction: V) -> Self {
         let (t_min, t_max) = (V::Scalar::ZERO, V::Scalar::INFINITY);
-        Self {
-            origin,
-            direction,
-            t_min,
-            t_max,
-        }
+        Self { origin, direction, t_min, t_max }
     }
 
     /// The segment between two points, t in [0, 1].

@@ -33,11 +33,7 @@ impl<V: Vector> Sphere<V> {
     pub fn normal_at(&self, point: V) -> V {
         let outward = point - self.center;
         let length = outward.length();
-        if V::Scalar::ZERO.lt(length) {
-            outward * (V::Scalar::ONE / length)
-        } else {
-            V::ZERO
-        }
+        if V::Scalar::ZERO.lt(length) { outward * (V::Scalar::ONE / length) } else { V::ZERO }
     }
 
     /// The smallest box around the sphere, rounded outward; [`Aabb::EMPTY`] for a sphere that is

@@ -21,10 +21,7 @@ pub struct ClippedPolygon<V> {
 }
 
 impl<V: Vector> ClippedPolygon<V> {
-    const EMPTY: Self = Self {
-        vertices: [V::ZERO; CAPACITY],
-        len: 0,
-    };
+    const EMPTY: Self = Self { vertices: [V::ZERO; CAPACITY], len: 0 };
 
     /// The vertices; none if triangle and box do not overlap.
     #[inline]
@@ -63,11 +60,10 @@ pub fn overlaps<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> bool {
 ///
 /// The triangle is cut by the box's six planes, one after the other; what lies on a plane stays.
 ///
-/// **Grade: fast.** The vertices lie in the box, exactly. Each is within 12u·s of the exact one across
-/// the line that carries it, u = EPSILON/2, s the largest magnitude of a coordinate of the triangle;
-/// and along it where it crosses the plane steeply. Where triangle and box are closer than that to
-/// touching, the polygon may be empty or not. On a lattice on which the products of three
-/// differences are exact (integers up to 64 in f32) it is empty just where they do not touch.
+/// **Grade: fast.** The vertices lie in the box, exactly, and within 100u·s of the triangle,
+/// u = EPSILON/2, s the largest magnitude of a coordinate of the triangle. Where triangle and box are
+/// closer than that to touching, the polygon may be empty or not. On a lattice on which the products
+/// of three differences are exact (integers up to 64 in f32) it is empty just where they do not touch.
 ///
 /// An empty box, a NaN, an infinite vertex: an empty polygon. Infinite bounds of the box are fine.
 ///
@@ -142,32 +138,17 @@ impl<V: Vector> Polygon<V> {
     fn clipped(self, aabb: &Aabb<V>) -> ClippedPolygon<V> {
         let polygon = (0..3).fold(self, |polygon, axis| {
             let (min, max) = (aabb.min.component(axis), aabb.max.component(axis));
-            let above = polygon.cut(Plane {
-                axis,
-                bound: min,
-                above: true,
-            });
-            above.cut(Plane {
-                axis,
-                bound: max,
-                above: false,
-            })
+            let above = polygon.cut(Plane { axis, bound: min, above: true });
+            above.cut(Plane { axis, bound: max, above: false })
         });
-        ClippedPolygon {
-            vertices: polygon.vertices,
-            len: polygon.len,
-        }
+        ClippedPolygon { vertices: polygon.vertices, len: polygon.len }
     }
 
     /// The part on the kept side of a plane.
     fn cut(&self, plane: Plane<V::Scalar>) -> Self {
         let keeps = |p: V| {
             let x = p.component(plane.axis);
-            if plane.above {
-                x >= plane.bound
-            } else {
-                x <= plane.bound
-            }
+            if plane.above { x >= plane.bound } else { x <= plane.bound }
         };
         let mut result = Self { len: 0, ..*self };
         for i in 0..self.len {
@@ -200,31 +181,45 @@ impl<V: Vector> Polygon<V> {
     fn crossing(&self, from: V, to: V, carrier: Carrier<V::Scalar>, plane: Plane<V::Scalar>) -> V {
         let crossing = match carrier {
             Carrier::Edge(i) => on_line(self.triangle[i], self.triangle[(i + 1) % 3], plane),
-            Carrier::Cut(first) => self
-                .on_two_planes(first, plane)
-                .unwrap_or_else(|| on_line(from, to, plane)),
+            Carrier::Cut(first) => self.on_two_planes(from, to, first, plane),
         };
         // Between the two vertices, of which one is on each side of the plane.
         let crossing = crossing.max(from.min(to)).min(from.max(to));
         with_component(crossing, plane.axis, plane.bound)
     }
 
-    /// The point of the triangle's plane on two planes of the box; `None` where it is not one point.
-    fn on_two_planes(&self, first: Plane<V::Scalar>, second: Plane<V::Scalar>) -> Option<V> {
+    /// Where the edge between two vertices, which lies on a plane of the box, crosses another.
+    ///
+    /// The point between the vertices is as close to the triangle as they are, whatever its shape. The
+    /// point of the triangle's own plane is exact where coordinates have few bits, but far off for a
+    /// needle, whose normal is uncertain: it is taken if it is as good as on the edge.
+    fn on_two_planes(
+        &self,
+        from: V,
+        to: V,
+        first: Plane<V::Scalar>,
+        second: Plane<V::Scalar>,
+    ) -> V {
+        let between = on_line(from, to, second);
         let [v0, v1, v2] = self.triangle;
         let normal = (v1 - v0).cross(v2 - v0);
         let along = 3 - first.axis - second.axis;
         let partial = |plane: Plane<V::Scalar>| {
             normal.component(plane.axis) * (plane.bound - v0.component(plane.axis))
         };
-        let slope = normal.component(along);
-        let free = v0.component(along) - (partial(first) + partial(second)) / slope;
-        let point = with_component(
-            with_component(v0, first.axis, first.bound),
-            second.axis,
-            second.bound,
-        );
-        free.is_finite().then(|| with_component(point, along, free))
+        let free =
+            v0.component(along) - (partial(first) + partial(second)) / normal.component(along);
+
+        let step = to - from;
+        let (rise, run) = (step.component(along).abs(), step.component(second.axis).abs());
+        let largest = v0.abs().max(v1.abs().max(v2.abs())).max_element();
+        let rounding = largest * V::Scalar::EPSILON.lit(8.0) * V::Scalar::EPSILON;
+        // The distance along the axis, against that from the edge times √(1 + (rise/run)²).
+        if (free - between.component(along)).abs() * run <= rounding * (rise + run) {
+            with_component(between, along, free)
+        } else {
+            between
+        }
     }
 }
 

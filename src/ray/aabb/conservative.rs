@@ -34,7 +34,9 @@ use crate::vector::{Number, Scalar, Vector};
 pub fn interval<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<[V::Scalar; 2]> {
     let (t_enter, t_exit) = bounds(ray, aabb);
     let overlap = aabb.min.all_le(aabb.max) & t_enter.le(t_exit);
-    overlap.then_some([t_enter, t_exit])
+    // A bound that has overflowed stands for a finite t beyond the largest float.
+    let largest = V::Scalar::MAX;
+    overlap.then(|| [t_enter.min(largest), t_exit.max(-largest)])
 }
 
 /// Whether the ray may hit the box: [`interval`] is not `None`.
@@ -80,9 +82,7 @@ fn both_ways<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V, V) {
     }
     let (near, far) = ray.differences(aabb);
     (
-        near.scaled(ray.near_inverse)
-            .min(near.scaled(ray.far_inverse)),
-        far.scaled(ray.near_inverse)
-            .max(far.scaled(ray.far_inverse)),
+        near.scaled(ray.near_inverse).min(near.scaled(ray.far_inverse)),
+        far.scaled(ray.near_inverse).max(far.scaled(ray.far_inverse)),
     )
 }

@@ -100,12 +100,7 @@ impl<V: Vector> BoxRay<V> {
     #[inline]
     #[must_use]
     pub fn new(ray: &Ray<V>) -> Self {
-        let Ray {
-            origin,
-            direction,
-            t_min,
-            t_max,
-        } = *ray;
+        let Ray { origin, direction, t_min, t_max } = *ray;
         let zero = V::Scalar::ZERO;
         let inverse = V::splat(V::Scalar::ONE).divided(direction);
         // With u = EPSILON/2: a computed difference p − o is too long by at most the factor 1 + u,
@@ -168,11 +163,7 @@ impl<V: Vector> BoxRay<V> {
             let (o, d) = (self.origin.component(axis), self.direction.component(axis));
             if d == V::Scalar::ZERO {
                 let inside = min <= o && o <= max;
-                return if inside {
-                    (-infinity, infinity)
-                } else {
-                    (infinity, -infinity)
-                };
+                return if inside { (-infinity, infinity) } else { (infinity, -infinity) };
             }
             let t = |plane: V::Scalar| {
                 let difference = plane - o;
@@ -183,11 +174,7 @@ impl<V: Vector> BoxRay<V> {
                     difference / d
                 }
             };
-            if d > V::Scalar::ZERO {
-                (t(min), t(max))
-            } else {
-                (t(max), t(min))
-            }
+            if d > V::Scalar::ZERO { (t(min), t(max)) } else { (t(max), t(min)) }
         };
         let [(x0, x1), (y0, y1), (z0, z1)] = [bounds(0), bounds(1), bounds(2)];
         (V::new(x0, y0, z0), V::new(x1, y1, z1))

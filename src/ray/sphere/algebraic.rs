@@ -14,7 +14,8 @@ use crate::vector::{Coordinates, Number, Vector};
 /// more than about a thousand radii away little is left of the radius: use
 /// [`super::robust`] there. The root adds 6u·(|f| + r)/|d|.
 ///
-/// A zero direction, a negative radius, a NaN or infinite field: a miss.
+/// A zero direction, a negative radius, a NaN or infinite field: a miss; a root beyond the largest
+/// float does not count.
 ///
 /// ```
 /// use isect::{Ray, Sphere, glam::Vec3, ray::sphere::algebraic};

@@ -15,7 +15,8 @@ use crate::vector::{Coordinates, Number, Vector};
 /// thousand radii away little is left of the radius: use [`super::robust`] there. The root adds
 /// 6u·(|f| + r)/|d|.
 ///
-/// A zero direction, a negative radius, a NaN or infinite field: a miss.
+/// A zero direction, a negative radius, a NaN or infinite field: a miss; a root beyond the largest
+/// float does not count.
 ///
 /// ```
 /// use isect::{Ray, Sphere, glam::Vec3, ray::sphere::geometric};
@@ -36,8 +37,5 @@ fn solve<V: Coordinates>(q: &Quadratic<V>) -> Roots<V::Scalar> {
     let approach = q.f.dot(q.d) / length;
     let h2 = q.f2 - approach * approach;
     let half_chord = (q.r * q.r - h2).sqrt();
-    [
-        (approach - half_chord) / length,
-        (approach + half_chord) / length,
-    ]
+    [(approach - half_chord) / length, (approach + half_chord) / length]
 }

@@ -69,13 +69,7 @@ struct Quadratic<V: Coordinates> {
 impl<V: Coordinates> Quadratic<V> {
     #[inline(always)]
     fn new(d: V, f: V, r: V::Scalar) -> Self {
-        Self {
-            d,
-            f,
-            r,
-            a: d.dot(d),
-            f2: f.dot(f),
-        }
+        Self { d, f, r, a: d.dot(d), f2: f.dot(f) }
     }
 }
 
@@ -111,10 +105,7 @@ fn extreme<V: Vector>(
     }
     let f = sphere.center - ray.origin;
     let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
-    let scale = Coordinates::abs(f)
-        .max_element()
-        .max(sphere.radius)
-        .normalizer();
+    let scale = Coordinates::abs(f).max_element().max(sphere.radius).normalizer();
     let q = Quadratic::new(ray.direction * t_scale, f * scale, sphere.radius * scale);
     Some(kernel(&q).map(|t| t * t_scale / scale))
 }
@@ -123,15 +114,9 @@ fn extreme<V: Vector>(
 #[inline(always)]
 fn nearest<V: Vector>(ray: &Ray<V>, [near, far]: Roots<V::Scalar>) -> Option<SphereHit<V::Scalar>> {
     if in_range(near, ray.t_min, ray.t_max) {
-        Some(SphereHit {
-            t: near,
-            leaving: false,
-        })
+        Some(SphereHit { t: near, leaving: false })
     } else if in_range(far, ray.t_min, ray.t_max) {
-        Some(SphereHit {
-            t: far,
-            leaving: true,
-        })
+        Some(SphereHit { t: far, leaving: true })
     } else {
         None
     }

@@ -18,7 +18,8 @@ use crate::vector::{Coordinates, Number, Vector};
 /// computed root is the exact one for a radius that differs by at most 16u·(|f| + r),
 /// u = EPSILON/2. So hit or miss is certain unless the line passes the surface within that distance.
 ///
-/// A zero direction, a negative radius, a NaN or infinite field: a miss. A radius of zero is a
+/// A zero direction, a negative radius, a NaN or infinite field: a miss; a root beyond the largest
+/// float does not count. A radius of zero is a
 /// point.
 ///
 /// ```

@@ -88,17 +88,20 @@ impl<V: Vector> Prepared<V> {
     ///
     /// t = (v0 − o)·n / d·n; then p = o + t·d, and u and v of it.
     ///
-    /// **Grade: fast.** The error of p − v0 is that of the plane's t, below
-    /// 12u·(|n||o − v0|/|n·d| + |t|) along d, and the rounding of p, 3u·(|o − v0| + |t||d|), with
-    /// u = EPSILON/2; divided by the triangle's height it is the error of u and v. It grows with
-    /// the distance of the origin. Within that distance of an edge the verdict may be wrong.
+    /// **Grade: fast.** Let P(a, b, c) be the sum of the magnitudes of the six terms of a·(b × c),
+    /// s = o − v0 and u' = EPSILON/2. To first order t is off by at most
+    /// δt = 9u'·(P(s, e1, e2) + |t|·P(d, e1, e2))/|d·n|; component i of p − v0 by
+    /// δp_i = u'·(2|s_i| + 3|t·d_i|) + |d_i|·δt; and u by the sum over i of
+    /// |a_i|·(δp_i + 10κu'·|p_i − v0_i|), with a = (e2 × k)/(n·k) and κ ≥ 1 the sum of the magnitudes of
+    /// the two terms of n·k over |n·k|; v alike with (k × e1)/(n·k). Within that distance of an edge,
+    /// or of an end of the range, the verdict may be wrong.
     ///
     /// A zero direction, a NaN or infinite field: a miss.
     #[inline]
     #[must_use]
     pub fn intersect(&self, ray: &Ray<V>) -> Option<TriangleHit<V::Scalar>> {
         let solution = self.solve(ray);
-        if !solution.determinant.is_mid_range() {
+        if !solution.is_trustworthy() {
             return self.extreme(ray);
         }
         solution.clipped(ray.t_min, ray.t_max).into_option()
@@ -108,33 +111,24 @@ impl<V: Vector> Prepared<V> {
     fn solve(&self, ray: &Ray<V>) -> Solution<V::Scalar> {
         let offset = ray.origin - self.v0;
         let determinant = -self.normal.dot(ray.direction);
-        let t = self.normal.dot(offset) / determinant;
+        let numerator = self.normal.dot(offset);
+        let t = numerator / determinant;
         let point = offset + ray.direction * t;
-        Solution {
-            determinant,
-            t,
-            u: self.u_axis.dot(point),
-            v: self.v_axis.dot(point),
-        }
+        let (u, v) = (self.u_axis.dot(point), self.v_axis.dot(point));
+        Solution { determinant, numerator, t, u, v }
     }
 
-    /// Parallel to the plane, or with a direction of extreme length, which a power of two brings
-    /// to about 1.
+    /// Parallel to the plane, from a point of it, or with a direction of extreme length, which a power of
+    /// two brings to about 1.
     #[cold]
     fn extreme(&self, ray: &Ray<V>) -> Option<TriangleHit<V::Scalar>> {
         if !(ray.is_valid() && self.v0.is_finite() && self.normal.is_finite()) {
             return None;
         }
         let t_scale = ray.direction.abs().max_element().normalizer();
-        let mut solution = self.solve(&Ray {
-            direction: ray.direction * t_scale,
-            ..*ray
-        });
+        let mut solution = self.solve(&Ray { direction: ray.direction * t_scale, ..*ray });
         solution.t = solution.t * t_scale;
         let parallel = solution.determinant == V::Scalar::ZERO;
-        solution
-            .clipped(ray.t_min, ray.t_max)
-            .into_option()
-            .filter(|_| !parallel)
+        solution.clipped(ray.t_min, ray.t_max).into_option().filter(|_| !parallel)
     }
 }

@@ -39,7 +39,7 @@ impl<T: Scalar> TriangleHit<T> {
     #[must_use]
     pub fn barycentric(&self) -> [T; 3] {
         // Where the kernel divides each weight by itself, 1 − u − v may round to just below zero.
-        [(T::ONE - self.u - self.v).max(T::ZERO), self.u, self.v]
+        [(T::ONE - (self.u + self.v)).max(T::ZERO), self.u, self.v]
     }
 
     /// The weighted mean of a quantity (a normal, a colour, texture coordinates) that is `a`, `b`
@@ -81,12 +81,7 @@ impl<T: Scalar> Found<T> {
     fn into_option(self) -> Option<TriangleHit<T>> {
         // Written so that it compiles to a conditional move and not to a branch, which random rays
         // would mispredict.
-        let mut hit = Some(TriangleHit {
-            t: self.t,
-            u: self.u,
-            v: self.v,
-            front: self.front,
-        });
+        let mut hit = Some(TriangleHit { t: self.t, u: self.u, v: self.v, front: self.front });
         if !self.hit {
             hit = None;
         }
@@ -139,31 +134,37 @@ impl<V: Coordinates> Frame<V> {
 struct Solution<N: Number> {
     /// A positive multiple of −d·n, n the triangle's normal.
     determinant: N,
+    /// t as a fraction of the determinant, before the division.
+    numerator: N,
     t: N,
     u: N,
     v: N,
 }
 
 impl<N: Number> Solution<N> {
+    /// Whether no product that matters has over- or underflowed: those of the most lengths lie in the
+    /// middle of the range of exponents, and the weights are finite.
+    #[inline(always)]
+    fn is_trustworthy(&self) -> N::Mask {
+        self.determinant.is_mid_range()
+            & self.numerator.is_mid_range()
+            & self.weight0().abs().le(self.t.largest())
+    }
+
+    /// The weight of v0. (The sum first: so the order of the other two does not matter.)
+    #[inline(always)]
+    fn weight0(&self) -> N {
+        self.t.lit(1.0) - (self.u + self.v)
+    }
+
     /// Keeps the point if it lies in the triangle and in the range. Any NaN is a miss.
     #[inline(always)]
     fn clipped(self, t_min: N, t_max: N) -> Found<N> {
-        let Self {
-            determinant,
-            t,
-            u,
-            v,
-        } = self;
-        let (zero, one) = (t.lit(0.0), t.lit(1.0));
-        let inside = zero.le(u) & zero.le(v) & zero.le(one - u - v);
+        let zero = self.t.lit(0.0);
+        let inside = zero.le(self.u) & zero.le(self.v) & zero.le(self.weight0());
+        let Self { determinant, t, u, v, .. } = self;
         let hit = inside & in_range(t, t_min, t_max);
-        Found {
-            hit,
-            t,
-            u,
-            v,
-            front: zero.lt(determinant),
-        }
+        Found { hit, t, u, v, front: zero.lt(determinant) }
     }
 }
 
@@ -175,8 +176,7 @@ fn is_valid<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
 
 /// Runs a kernel that works on edges.
 ///
-/// Where the determinant has left the middle of the range of exponents, and is not to be trusted,
-/// the kernel runs again on a scaled problem.
+/// Where its products may have over- or underflowed the kernel runs again on a scaled problem.
 #[inline(always)]
 fn intersect_frame<V: Vector>(
     ray: &Ray<V>,
@@ -184,7 +184,7 @@ fn intersect_frame<V: Vector>(
     solve: impl Fn(&Frame<V>) -> Solution<V::Scalar>,
 ) -> Option<TriangleHit<V::Scalar>> {
     let solution = solve(&Frame::new(ray, triangle));
-    if !solution.determinant.is_mid_range() {
+    if !solution.is_trustworthy() {
         return extreme(ray, triangle, solve);
     }
     solution.clipped(ray.t_min, ray.t_max).into_option()
@@ -203,8 +203,5 @@ fn extreme<V: Vector>(
     let mut solution = solve(&frame);
     solution.t = solution.t * t_scale;
     let flat = solution.determinant == V::Scalar::ZERO;
-    solution
-        .clipped(ray.t_min, ray.t_max)
-        .into_option()
-        .filter(|_| !flat)
+    solution.clipped(ray.t_min, ray.t_max).into_option().filter(|_| !flat)
 }

@@ -14,9 +14,9 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 /// With a_i = v_i − o and s_i = (a_(i+1) × a_(i+2))·d, the line passes inside if no two of the
 /// s_i have opposite signs; t = (Σ s_i·a_i)·d / (d²·Σ s_i) is compared as a fraction.
 ///
-/// **Grade: fast.** Each s_i is off by at most 10u times the sum of the magnitudes of its six terms,
+/// **Grade: fast.** Each s_i is off by at most 7u times the sum of the magnitudes of its six terms,
 /// u = EPSILON/2, which grows with the square of the distance of the origin; its sign is certain
-/// beyond that. Neighbours agree about the sign at a common edge. At an end of the range the verdict
+/// beyond that. Neighbours agree about the sign at a common edge, not about what they share at a vertex. At an end of the range the verdict
 /// may differ from that of [`intersect`], which divides.
 ///
 /// A triangle without area as computed, a zero direction, a NaN or infinite field: `false`.
@@ -33,22 +33,21 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 #[must_use]
 pub fn detects<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
     let volumes = Volumes::new(&corners(ray, triangle), ray.direction);
-    if !volumes.is_mid_range() {
+    if !volumes.is_trustworthy() {
         return extreme(ray, triangle).is_some();
     }
-    let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
-    let sign = if volumes.sum < zero { -one } else { one };
-    let inside =
-        zero.le(volumes.s[0] * sign) & zero.le(volumes.s[1] * sign) & zero.le(volumes.s[2] * sign);
-    let (numerator, denominator) = (volumes.along * sign, volumes.d2 * volumes.sum.abs());
-    inside & (ray.t_min * denominator).le(numerator) & numerator.le(ray.t_max * denominator)
+    let (numerator, denominator) = volumes.t_fraction();
+    volumes.line_passes_inside()
+        & (ray.t_min * denominator).le(numerator)
+        & numerator.le(ray.t_max * denominator)
 }
 
 /// Where the ray meets the triangle, in the closed range of the ray: [`detects`], then the weights
 /// s_i / Σ s and t with two divisions.
 ///
-/// **Grade: fast**, as [`detects`]. The weights are off by the error of their s_i over |Σ s|, and t by
-/// 12u·max|a_i|/|d| and what the weights' errors add to it.
+/// **Grade: fast**, as [`detects`]. With P_i the sum of the magnitudes of the six terms of s_i, the
+/// weight s_i / Σ s, at most 1, is off by at most 12u·(P_i + Σ P)/|Σ s|; and t by the sum over i of what
+/// the weight's error, and 12u more, make of Σ_k |a_ik·d_k| / d².
 ///
 /// A triangle without area as computed, a zero direction, a NaN or infinite field: a miss.
 ///
@@ -67,22 +66,16 @@ pub fn intersect<V: Vector>(
     triangle: &Triangle<V>,
 ) -> Option<TriangleHit<V::Scalar>> {
     let volumes = Volumes::new(&corners(ray, triangle), ray.direction);
-    if !volumes.is_mid_range() {
+    if !volumes.is_trustworthy() {
         return extreme(ray, triangle);
     }
-    volumes
-        .found(V::Scalar::ONE, ray.t_min, ray.t_max)
-        .into_option()
+    volumes.found(V::Scalar::ONE, ray.t_min, ray.t_max).into_option()
 }
 
 /// The vertices as seen from the origin.
 #[inline(always)]
 fn corners<V: Coordinates>(ray: &Ray<V>, triangle: &Triangle<V>) -> [V; 3] {
-    [
-        triangle.v0 - ray.origin,
-        triangle.v1 - ray.origin,
-        triangle.v2 - ray.origin,
-    ]
+    [triangle.v0 - ray.origin, triangle.v1 - ray.origin, triangle.v2 - ray.origin]
 }
 
 /// Six times the volumes that the ray's direction spans with each edge and the origin.
@@ -100,11 +93,8 @@ struct Volumes<N: Number> {
 impl<N: Number> Volumes<N> {
     #[inline(always)]
     fn new<V: Coordinates<Scalar = N>>(&[a0, a1, a2]: &[V; 3], direction: V) -> Self {
-        let [s0, s1, s2] = [
-            a1.cross(a2).dot(direction),
-            a2.cross(a0).dot(direction),
-            a0.cross(a1).dot(direction),
-        ];
+        let [s0, s1, s2] =
+            [a1.cross(a2).dot(direction), a2.cross(a0).dot(direction), a0.cross(a1).dot(direction)];
         Self {
             s: [s0, s1, s2],
             sum: s0 + s1 + s2,
@@ -113,31 +103,45 @@ impl<N: Number> Volumes<N> {
         }
     }
 
+    /// Whether no product that matters has over- or underflowed: all lie in the middle of the range of
+    /// exponents.
     #[inline(always)]
-    fn is_mid_range(&self) -> N::Mask {
-        self.sum.is_mid_range() & self.d2.is_mid_range()
+    fn is_trustworthy(&self) -> N::Mask {
+        self.sum.is_mid_range()
+            & self.d2.is_mid_range()
+            & (self.sum * self.d2).is_mid_range()
+            & self.along.is_mid_range()
+    }
+
+    /// Whether no two volumes have opposite signs.
+    #[inline(always)]
+    fn line_passes_inside(&self) -> N::Mask {
+        let zero = self.sum.lit(0.0);
+        let [s0, s1, s2] = self.s;
+        let one_way = zero.le(s0) & zero.le(s1) & zero.le(s2);
+        let other_way = s0.le(zero) & s1.le(zero) & s2.le(zero);
+        one_way | other_way
+    }
+
+    /// t as a fraction with a positive denominator.
+    #[inline(always)]
+    fn t_fraction(&self) -> (N, N) {
+        let numerator = N::select(self.sum.lt(self.sum.lit(0.0)), -self.along, self.along);
+        (numerator, self.d2 * self.sum.abs())
     }
 
     #[inline(always)]
     fn found(&self, t_scale: N, t_min: N, t_max: N) -> Found<N> {
-        let zero = self.sum.lit(0.0);
         let inverse = self.sum.lit(1.0) / self.sum;
-        let [w, u, v] = self.s.map(|s| s * inverse);
+        let [_, u, v] = self.s.map(|s| s * inverse);
         let t = self.along * inverse / self.d2 * t_scale;
-        let inside = zero.le(w) & zero.le(u) & zero.le(v);
-        let hit = inside & in_range(t, t_min, t_max);
-        Found {
-            hit,
-            t,
-            u,
-            v,
-            front: self.sum.lt(zero),
-        }
+        let hit = self.line_passes_inside() & in_range(t, t_min, t_max);
+        Found { hit, t, u, v, front: self.sum.lt(self.sum.lit(0.0)) }
     }
 }
 
-/// The sum of the volumes, or d², has left the middle of the range of exponents: once more with
-/// both the direction and the corners brought to about 1 by powers of two.
+/// Products may have over- or underflowed: once more with both the direction and the corners brought
+/// to about 1 by powers of two.
 #[cold]
 fn extreme<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHit<V::Scalar>> {
     if !is_valid(ray, triangle) {
@@ -149,7 +153,5 @@ fn extreme<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHi
     let t_scale = ray.direction.abs().max_element().normalizer();
     let volumes = Volumes::new(&corners.map(|a| a * scale), ray.direction * t_scale);
     let found = volumes.found(t_scale / scale, ray.t_min, ray.t_max);
-    found
-        .into_option()
-        .filter(|_| volumes.sum != V::Scalar::ZERO)
+    found.into_option().filter(|_| volumes.sum != V::Scalar::ZERO)
 }

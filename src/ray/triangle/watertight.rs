@@ -45,11 +45,7 @@ impl<V: Vector> ShearedRay<V> {
         } else {
             (2, [d.x(), d.y(), d.z()])
         };
-        let t_scale = if dz.is_mid_range() {
-            one
-        } else {
-            dz.normalizer()
-        };
+        let t_scale = if dz.is_mid_range() { one } else { dz.normalizer() };
         Self {
             origin: ray.origin,
             axis,
@@ -57,11 +53,7 @@ impl<V: Vector> ShearedRay<V> {
             inverse: one / (dz * t_scale),
             t_scale,
             // A NaN that no comparison lets through.
-            t_min: if ray.is_valid() {
-                ray.t_min
-            } else {
-                zero / zero
-            },
+            t_min: if ray.is_valid() { ray.t_min } else { zero / zero },
             t_max: ray.t_max,
         }
     }
@@ -81,11 +73,7 @@ impl<V: Vector> ShearedRay<V> {
             1 => (z, x, y),
             _ => (x, y, z),
         };
-        Sheared {
-            x: x - z * self.shear[0],
-            y: y - z * self.shear[1],
-            z,
-        }
+        Sheared { x: x - z * self.shear[0], y: y - z * self.shear[1], z }
     }
 }
 
@@ -171,13 +159,7 @@ impl<V: Vector> Sheared<V> {
         let hit = inside & in_range(t, ray.t_min, ray.t_max);
         // Looking along the axis, or against it, the vertices turn the other way.
         let front = zero.lt(determinant) == zero.lt(ray.inverse);
-        Found {
-            hit,
-            t,
-            u,
-            v,
-            front,
-        }
+        Found { hit, t, u, v, front }
     }
 }
 
@@ -190,11 +172,7 @@ fn extreme<V: Vector>(ray: &ShearedRay<V>, sheared: &Sheared<V>) -> Option<Trian
         return None;
     }
     let scale = x.abs().max(y.abs()).max_element().normalizer();
-    let sheared = Sheared {
-        x: x * scale,
-        y: y * scale,
-        z,
-    };
+    let sheared = Sheared { x: x * scale, y: y * scale, z };
     let weights = sheared.weights();
     let determinant = weights.x() + weights.y() + weights.z();
     let found = sheared.found(ray, weights, determinant).into_option();

@@ -1,0 +1,16 @@
+//! The claims of the library, one file each, held against exact arithmetic.
+//!
+//! `cargo test` runs them all; `cargo test --test suite watertight` runs one.
+
+#![allow(unreachable_pub)] // the modules of one binary are public to each other
+
+mod support;
+
+mod bad_input;
+mod bounds;
+mod conservative;
+mod metamorphic;
+mod obvhs;
+mod overlap;
+mod properties;
+mod watertight;

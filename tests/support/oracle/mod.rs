@@ -1,0 +1,151 @@
+//! Exact answers to every intersection query, to hold the floating-point kernels against.
+//!
+//! A finite float is an integer times a power of two. The points of one case are counted on a common grid, the direction
+//! on another; the verdict is then a matter of signs of integer polynomials, with no division and no root. `i128` does
+//! where a bound on the bit lengths rules overflow out, big integers elsewhere: one generic body serves both.
+//!
+//! All sets are closed, and so is the range of t. Bad input (NaN, an infinite point or direction, a zero direction, an
+//! empty range or box) is a miss. Single-precision values are passed as the doubles they equal.
+
+mod aabb;
+mod integer;
+mod plane;
+mod sphere;
+mod triangle;
+mod triangle_aabb;
+
+pub use aabb::{aabb, aabb_enter_in, aabb_exit_in};
+pub use plane::{PlaneVerdict, plane};
+pub use sphere::{sphere, sphere_side};
+pub use triangle::{TriangleVerdict, triangle, triangle_t_in, triangle_u_in, triangle_v_in};
+pub use triangle_aabb::{triangle_aabb_clip, triangle_aabb_sat};
+
+use integer::{Grid, I128_BITS, Integer, Interval, Vector, ratio_bits, sub};
+
+/// The points `origin + t · direction` with t in the closed range from `t_min` to `t_max`, either of which may be infinite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// The point at t = 0.
+    pub origin: [f64; 3],
+    /// The way from t = 0 to t = 1, of any length but zero.
+    pub direction: [f64; 3],
+    /// The first t.
+    pub t_min: f64,
+    /// The last t.
+    pub t_max: f64,
+}
+
+impl Ray {
+    /// Whether origin and direction define a line.
+    fn has_line(&self) -> bool {
+        is_finite(&[self.origin, self.direction]) && self.direction != [0.0; 3]
+    }
+
+    /// Whether a finite t is in range.
+    fn has_range(&self) -> bool {
+        self.t_min <= self.t_max && self.t_min < f64::INFINITY && self.t_max > f64::NEG_INFINITY
+    }
+
+    /// Whether the ray has any point.
+    fn is_valid(&self) -> bool {
+        self.has_line() && self.has_range()
+    }
+
+    /// The same line with another range.
+    fn with_range(self, t_min: f64, t_max: f64) -> Self {
+        Self { t_min, t_max, ..self }
+    }
+}
+
+/// Whether every coordinate is finite.
+fn is_finite(points: &[[f64; 3]]) -> bool {
+    points.as_flattened().iter().all(|x| x.is_finite())
+}
+
+/// Whether a box has a point; one that lies at infinity has none.
+fn is_box(min: [f64; 3], max: [f64; 3]) -> bool {
+    (0..3).all(|k| min[k] <= max[k] && min[k] < f64::INFINITY && max[k] > f64::NEG_INFINITY)
+}
+
+/// The integer frame of a case: points relative to the ray's origin on one grid, the direction on another.
+///
+/// With points in units of 2^p and directions in units of 2^q, `o + t·d` keeps its form when t counts in units of 2^(p − q).
+#[derive(Clone, Copy)]
+struct Frame {
+    ray: Ray,
+    points: Grid,
+    directions: Grid,
+}
+
+impl Frame {
+    /// The frame of a valid ray and a shape, which is given by its points.
+    #[inline]
+    fn new<const N: usize>(ray: &Ray, shape: [[f64; 3]; N]) -> Self {
+        Self {
+            ray: *ray,
+            points: Grid::through(&ray.origin).joined(Grid::through(shape.as_flattened())),
+            directions: Grid::through(&ray.direction),
+        }
+    }
+
+    /// Points as seen from the ray's origin.
+    #[inline]
+    fn relative<I: Integer, const N: usize>(&self, points: [[f64; 3]; N]) -> [Vector<I>; N] {
+        let origin = self.points.vector(self.ray.origin);
+        points.map(|p| sub(&self.points.vector(p), &origin))
+    }
+
+    #[inline]
+    fn direction<I: Integer>(&self) -> Vector<I> {
+        self.directions.vector(self.ray.direction)
+    }
+
+    fn t_shift(&self) -> i32 {
+        self.directions.exponent - self.points.exponent
+    }
+
+    fn interval<I: Integer>(&self, lo: f64, hi: f64) -> Interval<I> {
+        Interval::new(lo, hi, self.t_shift())
+    }
+
+    /// The ray's own range.
+    fn range<I: Integer>(&self) -> Interval<I> {
+        self.interval(self.ray.t_min, self.ray.t_max)
+    }
+
+    /// The bit length of the ends of an interval of t.
+    fn interval_bits(&self, lo: f64, hi: f64) -> u32 {
+        ratio_bits(lo, self.t_shift()).max(ratio_bits(hi, self.t_shift()))
+    }
+
+    /// The bit length of the ends of the ray's own range.
+    fn range_bits(&self) -> u32 {
+        self.interval_bits(self.ray.t_min, self.ray.t_max)
+    }
+}
+
+/// Whether a bit length is safe in the fast tier.
+fn fits_i128(bits: u32) -> bool {
+    bits <= I128_BITS
+}
+
+/// A point with integer coordinates of at most `radius`.
+#[cfg(test)]
+fn lattice_point(rng: &mut fastrand::Rng, radius: i32) -> [f64; 3] {
+    [0; 3].map(|_| f64::from(rng.i32(-radius..=radius)))
+}
+
+/// A ray with integer coordinates and a closed, half-open or unbounded range.
+#[cfg(test)]
+fn lattice_ray(rng: &mut fastrand::Rng, radius: i32) -> Ray {
+    let bound = |rng: &mut fastrand::Rng| f64::from(rng.i32(-16..=16)) / 8.0;
+    let (a, b) = (bound(rng), bound(rng));
+    let (t_min, t_max) = match rng.u8(..4) {
+        0 => (0.0, f64::INFINITY),
+        1 => (f64::NEG_INFINITY, f64::INFINITY),
+        2 => (f64::NEG_INFINITY, a),
+        _ => (a.min(b), a.max(b)),
+    };
+    let (origin, direction) = (lattice_point(rng, radius), lattice_point(rng, radius));
+    Ray { origin, direction, t_min, t_max }
+}

@@ -1,0 +1,145 @@
+//! Ray against plane: one dot product above another.
+
+use num_bigint::BigInt;
+
+use super::integer::{Grid, Integer, Ratio, dot};
+use super::{Frame, Ray, fits_i128, is_finite};
+
+/// What a ray and a plane have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PlaneVerdict {
+    /// No common point.
+    Miss,
+    /// One point.
+    At,
+    /// The whole ray.
+    Contained,
+}
+
+/// A ray against the plane `normal · p = offset`; the normal has any length but zero.
+#[must_use]
+pub fn plane(ray: &Ray, normal: [f64; 3], offset: f64) -> PlaneVerdict {
+    match Case::new(ray, normal, offset) {
+        Some(case) if fits_i128(case.bits()) => case.verdict::<i128>(),
+        Some(case) => case.verdict::<BigInt>(),
+        None => PlaneVerdict::Miss,
+    }
+}
+
+struct Case {
+    normal: [f64; 3],
+    offset: f64,
+    frame: Frame,
+    normals: Grid,
+    offsets: Grid,
+}
+
+impl Case {
+    fn new(ray: &Ray, normal: [f64; 3], offset: f64) -> Option<Self> {
+        if !ray.is_valid() || !is_finite(&[normal]) || normal == [0.0; 3] || !offset.is_finite() {
+            return None;
+        }
+        let mut frame = Frame::new(ray, []);
+        let normals = Grid::through(&normal);
+        // An offset is a normal times a point: where it is finer than their grids allow, the points give way.
+        let own = Grid::through(&[offset]);
+        if offset != 0.0 {
+            frame.points = frame.points.refined(own.exponent - normals.exponent);
+        }
+        let exponent = frame.points.exponent + normals.exponent;
+        let bits = if offset == 0.0 { 0 } else { own.refined(exponent).bits };
+        Some(Self { normal, offset, frame, normals, offsets: Grid { exponent, bits } })
+    }
+
+    fn bits(&self) -> u32 {
+        let (p, d) = (self.frame.points.bits, self.frame.directions.bits);
+        let t = self.frame.range_bits();
+        t + t.max(self.normals.bits + p.max(d) + 3).max(self.offsets.bits + 1)
+    }
+
+    fn verdict<I: Integer>(&self) -> PlaneVerdict {
+        let normal = self.normals.vector::<I>(self.normal);
+        let offset = self.offsets.integer::<I>(self.offset);
+        let height = offset - dot(&normal, &self.frame.points.vector(self.frame.ray.origin));
+        let slope = dot(&normal, &self.frame.direction());
+        if slope.signum() == 0 {
+            return if height.signum() == 0 { PlaneVerdict::Contained } else { PlaneVerdict::Miss };
+        }
+        if self.frame.range().contains(&Ratio::new(height, slope)) {
+            PlaneVerdict::At
+        } else {
+            PlaneVerdict::Miss
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{lattice_point, lattice_ray};
+    use super::*;
+
+    const INF: f64 = f64::INFINITY;
+
+    fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
+        Ray { origin, direction, t_min: 0.0, t_max: INF }
+    }
+
+    #[test]
+    fn a_ray_crosses_lies_in_or_misses_a_plane() {
+        let down = ray([0.0, 0.0, 3.0], [0.1, 0.0, -2.0]);
+        assert_eq!(plane(&down, [0.0, 0.0, 7.0], 0.0), PlaneVerdict::At);
+        assert_eq!(plane(&down, [0.0, 0.0, 7.0], 28.0), PlaneVerdict::Miss);
+        assert_eq!(plane(&down.with_range(1.5, 1.5), [0.0, 0.0, 1.0], 0.0), PlaneVerdict::At);
+        assert_eq!(
+            plane(&down.with_range(-INF, 1.5f64.next_down()), [0.0, 0.0, 1.0], 0.0),
+            PlaneVerdict::Miss
+        );
+        let level = ray([0.0, 0.0, 3.0], [1.0, 5e-324, 0.0]);
+        assert_eq!(plane(&level, [0.0, 0.0, 1.0], 3.0), PlaneVerdict::Contained);
+        assert_eq!(plane(&level, [0.0, 0.0, 1.0], 3f64.next_up()), PlaneVerdict::Miss);
+        assert_eq!(plane(&level, [0.0, 1e-300, 1.0], 3.0), PlaneVerdict::At);
+        // The offset is finer than the product of the other grids.
+        assert_eq!(
+            plane(&ray([0.0; 3], [4.0, 0.0, 0.0]), [2.0, 0.0, 0.0], 5e-324),
+            PlaneVerdict::At
+        );
+    }
+
+    #[test]
+    fn bad_input_misses_a_plane() {
+        let good = ray([0.0; 3], [0.0, 0.0, 1.0]);
+        assert_eq!(plane(&good, [0.0, -0.0, 0.0], 0.0), PlaneVerdict::Miss);
+        assert_eq!(plane(&good, [0.0, INF, 0.0], 0.0), PlaneVerdict::Miss);
+        assert_eq!(plane(&good, [0.0, 0.0, 1.0], f64::NAN), PlaneVerdict::Miss);
+        assert_eq!(plane(&good.with_range(1.0, -1.0), [0.0, 0.0, 1.0], 0.0), PlaneVerdict::Miss);
+        assert_eq!(
+            plane(&good.with_range(f64::NAN, INF), [0.0, 1.0, 0.0], 0.0),
+            PlaneVerdict::Miss
+        );
+        assert_eq!(plane(&good.with_range(INF, INF), [0.0, 1.0, 0.0], 0.0), PlaneVerdict::Miss);
+        assert_eq!(plane(&ray([0.0; 3], [0.0; 3]), [0.0, 1.0, 0.0], 0.0), PlaneVerdict::Miss);
+        assert_eq!(plane(&ray([f64::NAN; 3], [1.0; 3]), [0.0, 1.0, 0.0], 0.0), PlaneVerdict::Miss);
+    }
+
+    #[test]
+    fn tiers_agree_and_powers_of_two_change_nothing() {
+        let mut rng = fastrand::Rng::with_seed(1);
+        for k in 0..30_000 {
+            let radius = if k % 2 == 0 { 3 } else { 1 << 23 };
+            let (ray, normal) = (lattice_ray(&mut rng, radius), lattice_point(&mut rng, radius));
+            let offset = f64::from(rng.i32(-9..=9)) / 4.0;
+            let verdict = plane(&ray, normal, offset);
+            if let Some(case) = Case::new(&ray, normal, offset) {
+                assert!(fits_i128(case.bits()));
+                assert_eq!(case.verdict::<i128>(), verdict);
+                assert_eq!(case.verdict::<BigInt>(), verdict);
+            }
+            let scaled = Ray { origin: ray.origin.map(|x| x * 2f64.powi(70)), ..ray };
+            let scaled = Ray { direction: ray.direction.map(|x| x * 2f64.powi(70)), ..scaled };
+            assert_eq!(
+                plane(&scaled, normal.map(|x| x * 2f64.powi(-90)), offset * 2f64.powi(-20)),
+                verdict
+            );
+        }
+    }
+}
