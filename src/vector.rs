@@ -92,6 +92,11 @@ pub trait Number:
     #[must_use]
     fn is_mid_range(self) -> Self::Mask;
 
+    /// 2³⁸ (2³⁰⁰ for `f64`): a length of which the cube, six times, is still far from overflow. Scaled
+    /// up to it, a problem keeps the products of its small components from underflow.
+    #[must_use]
+    fn large_length(self) -> Self;
+
     /// The power of two that brings `|self|` into [1, 2), as far as it is a normal number: [1, 4)
     /// for the largest numbers, less than 1 for subnormal ones.
     #[must_use]
@@ -127,6 +132,20 @@ pub trait Scalar:
     #[must_use]
     fn is_finite(self) -> bool;
 
+    /// `self · numerator / denominator` for two powers of two, rounded once, though their quotient may
+    /// not be a float.
+    #[must_use]
+    #[inline]
+    fn times_ratio(self, numerator: Self, denominator: Self) -> Self {
+        let ratio = numerator / denominator;
+        if ratio >= Self::MIN_POSITIVE && ratio.is_finite() {
+            self * ratio
+        } else {
+            // One is below 1 and the other above: both steps go the same way.
+            self * numerator / denominator
+        }
+    }
+
     /// The sum, rounded towards −∞ instead of to nearest.
     #[must_use]
     #[inline]
@@ -154,7 +173,7 @@ fn two_sum<N: Number>(a: N, b: N) -> (N, N) {
 }
 
 macro_rules! scalar {
-    ($t:ident, $mantissa_bits:literal, $max_exponent:literal, $mid_range:expr, $sqrt:path, $two_product:path) => {
+    ($t:ident, $mantissa_bits:literal, $max_exponent:literal, $mid_range:expr, $large_length:expr, $sqrt:path, $two_product:path) => {
         impl Number for $t {
             type Mask = bool;
 
@@ -205,6 +224,11 @@ macro_rules! scalar {
             fn is_mid_range(self) -> bool {
                 let magnitude = $t::abs(self);
                 (magnitude >= $mid_range.0) & (magnitude <= $mid_range.1)
+            }
+            #[allow(clippy::cast_possible_truncation)] // a power of two that f32 has
+            #[inline(always)]
+            fn large_length(self) -> Self {
+                $large_length as $t
             }
             #[inline(always)]
             fn normalizer(self) -> Self {
@@ -281,8 +305,16 @@ const fn pow2(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-scalar!(f32, 23, 0xff, (pow2(-80) as f32, pow2(80) as f32), root32::sqrt, two_product_f32);
-scalar!(f64, 52, 0x7ff, (pow2(-600), pow2(600)), root64::sqrt, two_product_f64);
+scalar!(
+    f32,
+    23,
+    0xff,
+    (pow2(-80) as f32, pow2(80) as f32),
+    pow2(38),
+    root32::sqrt,
+    two_product_f32
+);
+scalar!(f64, 52, 0x7ff, (pow2(-600), pow2(600)), pow2(300), root64::sqrt, two_product_f64);
 
 /// Three numbers x, y, z (or three times several, side by side in lanes), as a kernel body sees
 /// them.

@@ -53,9 +53,10 @@ fn check_triangle<V: Vector>(
         assert!(exactly_in(ray_, vertices, around(t, t_error), intervals), "{}", case());
         true
     } else {
-        // Not if it is clearly inside.
+        // Not if it is clearly inside, at a t that is a float.
+        let limit: f64 = V::Scalar::MAX.into();
         let inside = weights.map(|error| [error, INFINITY]);
-        let range = [ray_.t_min + t_error, ray_.t_max - t_error];
+        let range = [ray_.t_min.max(-limit) + t_error, ray_.t_max.min(limit) - t_error];
         assert!(!exactly_in(ray_, vertices, range, inside), "{}", case());
         false
     }
@@ -131,8 +132,8 @@ fn spheres() {
                 } else {
                     misses += 1;
                     // A line that passes well inside of the sphere cannot be missed.
-                    // (If its roots are not beyond the largest float.)
-                    let limit: f64 = <V::Scalar as Scalar>::MAX.into();
+                    // (If its roots are floats, even with an error that is large against a tiny direction.)
+                    let limit = f64::from(f32::MAX) / 1024.0;
                     let line = oracle::Ray { t_min: -limit, t_max: limit, ..ray_ };
                     let whole = isect::Ray {
                         t_min: scalar(-INFINITY),
@@ -169,11 +170,15 @@ fn planes() {
             let (ray_, normal, offset) = generators::ray_plane(&mut rng);
             let plane = Plane { normal: vector::<V>(normal), offset: scalar(offset) };
             let found = plane::intersect(&ray(&ray_), &plane);
+            // The bounds are about rounding: where a product underflows they do not count.
+            let products =
+                (0..3).flat_map(|i| [ray_.origin[i], ray_.direction[i]].map(|x| x * normal[i]));
+            if products.chain([offset]).any(|x| x != 0.0 && !(1e-30..1e30).contains(&x.abs())) {
+                continue;
+            }
             let terms = |a: &[f64; 3]| (0..3).map(|i| (a[i] * normal[i]).abs()).sum::<f64>();
             let numerator_error = 4.0 * unit * (offset.abs() + terms(&ray_.origin));
-            // And products that underflow, with a direction scaled to 2^60: below 3·2^(−149 − 60) of it.
-            let longest = ray_.direction.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            let denominator_error = 3.0 * unit * terms(&ray_.direction) + 1e-60 * longest;
+            let denominator_error = 3.0 * unit * terms(&ray_.direction);
             let case = || format!("{} {ray_:?} {normal:?} {offset}: {found:?}", name::<V>());
             match found {
                 Some(PlaneHit::At(t)) => {
@@ -212,7 +217,7 @@ fn planes() {
             }
         }
         println!("{:<6} planes: {outcomes:?} at, contained, missed", name::<V>());
-        assert!(outcomes.iter().all(|&n| n > 10_000));
+        assert!(outcomes.iter().all(|&n| n > 5_000), "{outcomes:?}");
     }
     for_every_vector!(check);
 }

@@ -39,6 +39,11 @@ fn abs(a: &Vec3) -> Vec3 {
     a.map(f64::abs)
 }
 
+/// The first axis on which the magnitude is largest.
+fn dominant(a: &Vec3) -> usize {
+    (0..3).rev().max_by(|&i, &j| a[i].abs().total_cmp(&a[j].abs())).expect("three axes")
+}
+
 fn largest(a: &Vec3) -> f64 {
     a.iter().fold(0.0, |m, x| x.abs().max(m))
 }
@@ -86,7 +91,7 @@ pub fn badouel(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Opt
     let p_n = permanents(&e1, &e2);
     let det = dot(&d, &n).abs();
     let p_det = permanent(&d, &e1, &e2);
-    let axis = (0..3).max_by(|&i, &j| n[i].abs().total_cmp(&n[j].abs())).unwrap();
+    let axis = dominant(&n);
     let condition = p_n[axis] / n[axis].abs();
     if 10.0 * unit * p_det > det / 16.0 || condition * 10.0 * unit > 1.0 / 16.0 {
         return None;
@@ -129,7 +134,7 @@ pub fn segura(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Opti
 /// The exact weights for vertices moved across the ray by 6u·|a_i|, with the roundings of the last steps.
 pub fn watertight(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Option<Bound> {
     let d = ray.direction;
-    let axis = (0..3).max_by(|&i, &j| d[i].abs().total_cmp(&d[j].abs())).unwrap();
+    let axis = dominant(&d);
     let [kx, ky] = [(axis + 1) % 3, (axis + 2) % 3];
     let a: [Vec3; 3] = std::array::from_fn(|i| sub(&triangle[i], &ray.origin));
     let moved = a.map(|a| 6.0 * unit * largest(&a));

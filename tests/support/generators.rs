@@ -107,7 +107,7 @@ fn aimed(rng: &mut Rng, style: Style, target: Point) -> Ray {
             for i in 0..3 {
                 if rng.bool() {
                     origin[i] = target[i];
-                    direction[i] = pick(rng, &[0.0, -0.0, 0.0, 1e-45, -1e-42]);
+                    direction[i] = single(pick(rng, &[0.0, -0.0, 0.0, 1e-45, -1e-42]));
                 }
             }
         }

@@ -107,7 +107,7 @@ fn extreme<V: Vector>(
     let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
     let scale = Coordinates::abs(f).max_element().max(sphere.radius).normalizer();
     let q = Quadratic::new(ray.direction * t_scale, f * scale, sphere.radius * scale);
-    Some(kernel(&q).map(|t| t * t_scale / scale))
+    Some(kernel(&q).map(|t| t.times_ratio(t_scale, scale)))
 }
 
 /// The first root that lies in the ray's range.

@@ -46,13 +46,17 @@ pub fn intersect<V: Vector>(
 #[repr(C)]
 pub struct Prepared<V: Coordinates = Vec3> {
     v0: V,
-    /// e1 × e2, of length about 1 for a well-shaped triangle of any size.
+    /// e1 × e2, of a length of about 2²⁰ for a well-shaped triangle of any size.
     normal: V,
     /// `(p − v0) · u_axis` is u.
     u_axis: V,
     /// `(p − v0) · v_axis` is v.
     v_axis: V,
 }
+
+/// The edges' length while they are multiplied: 2¹⁰ keeps the products of small components from
+/// underflow, and those with far origins from overflow.
+const LARGE: f64 = 1024.0;
 
 impl<V: Vector> Prepared<V> {
     /// Prepares a triangle. One without area as computed, or with a NaN or infinite vertex, is
@@ -62,9 +66,10 @@ impl<V: Vector> Prepared<V> {
     pub fn new(triangle: &Triangle<V>) -> Self {
         let edge1 = triangle.v1 - triangle.v0;
         let edge2 = triangle.v2 - triangle.v0;
-        // A power of two, so that products of edges neither over- nor underflow.
+        // Powers of two, so that products of edges neither over- nor underflow.
         let scale = edge1.abs().max(edge2.abs()).max_element().normalizer();
-        let (edge1, edge2) = (edge1 * scale, edge2 * scale);
+        let large = V::Scalar::ONE.lit(LARGE);
+        let (edge1, edge2) = (edge1 * scale * large, edge2 * scale * large);
         let normal = edge1.cross(edge2);
         let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
         let [x, y, z] = [normal.x().abs(), normal.y().abs(), normal.z().abs()];
@@ -75,7 +80,7 @@ impl<V: Vector> Prepared<V> {
         } else {
             (V::new(zero, zero, one), normal.z())
         };
-        let inverse = scale / largest;
+        let inverse = scale / largest * large;
         Self {
             v0: triangle.v0,
             normal,

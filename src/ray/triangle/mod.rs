@@ -114,19 +114,22 @@ impl<V: Coordinates> Frame<V> {
         }
     }
 
-    /// The same problem with the direction and the edges brought to about 1 by powers of two, and
-    /// the factor that takes its t back.
-    fn normalized(&self) -> (Self, V::Scalar) {
-        let longest = self.edge1.abs().max(self.edge2.abs()).max_element();
-        let scale = longest.normalizer();
-        let t_scale = self.direction.abs().max_element().normalizer();
+    /// The same problem with the direction, and the longest of the other vectors, scaled by powers of
+    /// two to a length of which the products do not overflow, and those of small components hardly
+    /// underflow; with the two factors, which cancel but in t.
+    fn normalized(&self) -> (Self, V::Scalar, V::Scalar) {
+        let longest = self.edge1.abs().max(self.edge2.abs()).max(self.offset.abs()).max_element();
+        let (scale, t_scale) =
+            (longest.normalizer(), self.direction.abs().max_element().normalizer());
+        // Two steps, as the product of both factors may not be a float.
+        let large = longest.large_length();
         let frame = Self {
-            direction: self.direction * t_scale,
-            edge1: self.edge1 * scale,
-            edge2: self.edge2 * scale,
-            offset: self.offset * scale,
+            direction: self.direction * t_scale * large,
+            edge1: self.edge1 * scale * large,
+            edge2: self.edge2 * scale * large,
+            offset: self.offset * scale * large,
         };
-        (frame, t_scale / scale)
+        (frame, t_scale, scale)
     }
 }
 
@@ -199,9 +202,9 @@ fn extreme<V: Vector>(
     if !is_valid(ray, triangle) {
         return None;
     }
-    let (frame, t_scale) = Frame::new(ray, triangle).normalized();
+    let (frame, t_scale, scale) = Frame::new(ray, triangle).normalized();
     let mut solution = solve(&frame);
-    solution.t = solution.t * t_scale;
+    solution.t = solution.t.times_ratio(t_scale, scale);
     let flat = solution.determinant == V::Scalar::ZERO;
     solution.clipped(ray.t_min, ray.t_max).into_option().filter(|_| !flat)
 }

@@ -69,7 +69,7 @@ pub fn intersect<V: Vector>(
     if !volumes.is_trustworthy() {
         return extreme(ray, triangle);
     }
-    volumes.found(V::Scalar::ONE, ray.t_min, ray.t_max).into_option()
+    volumes.found(volumes.t(), ray.t_min, ray.t_max).into_option()
 }
 
 /// The vertices as seen from the origin.
@@ -131,17 +131,21 @@ impl<N: Number> Volumes<N> {
     }
 
     #[inline(always)]
-    fn found(&self, t_scale: N, t_min: N, t_max: N) -> Found<N> {
+    fn t(&self) -> N {
+        self.along * (self.sum.lit(1.0) / self.sum) / self.d2
+    }
+
+    #[inline(always)]
+    fn found(&self, t: N, t_min: N, t_max: N) -> Found<N> {
         let inverse = self.sum.lit(1.0) / self.sum;
         let [_, u, v] = self.s.map(|s| s * inverse);
-        let t = self.along * inverse / self.d2 * t_scale;
         let hit = self.line_passes_inside() & in_range(t, t_min, t_max);
         Found { hit, t, u, v, front: self.sum.lt(self.sum.lit(0.0)) }
     }
 }
 
-/// Products may have over- or underflowed: once more with both the direction and the corners brought
-/// to about 1 by powers of two.
+/// Products may have over- or underflowed: once more with the direction brought to about 1 and
+/// the corners to a length of which the products neither over- nor underflow, by powers of two.
 #[cold]
 fn extreme<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHit<V::Scalar>> {
     if !is_valid(ray, triangle) {
@@ -151,7 +155,9 @@ fn extreme<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHi
     let [a0, a1, a2] = corners.map(Coordinates::abs);
     let scale = a0.max(a1.max(a2)).max_element().normalizer();
     let t_scale = ray.direction.abs().max_element().normalizer();
-    let volumes = Volumes::new(&corners.map(|a| a * scale), ray.direction * t_scale);
-    let found = volumes.found(t_scale / scale, ray.t_min, ray.t_max);
+    let large = scale.large_length();
+    let volumes = Volumes::new(&corners.map(|a| a * scale * large), ray.direction * t_scale);
+    let t = (volumes.t() / large).times_ratio(t_scale, scale);
+    let found = volumes.found(t, ray.t_min, ray.t_max);
     found.into_option().filter(|_| volumes.sum != V::Scalar::ZERO)
 }
