@@ -86,11 +86,15 @@ pub trait Number:
     #[must_use]
     fn two_product(self, other: Self) -> (Self, Self);
 
-    /// Whether the magnitude lies well inside the range of exponents, between 2⁻⁸⁰ and 2⁸⁰ (2⁻⁶⁰⁰
-    /// and 2⁶⁰⁰ for `f64`): where a computed sum of products is not, over- and underflow may have
-    /// spoilt it.
+    /// Whether the magnitude lies in the middle half of the range of exponents, from 2⁻⁶³ to 2⁶⁴
+    /// (2⁻⁵¹¹ to 2⁵¹² for `f64`): where a computed sum of products does not, over- and underflow may
+    /// have spoilt it.
     #[must_use]
     fn is_mid_range(self) -> Self::Mask;
+
+    /// Whether both numbers lie in the middle half of the range of exponents.
+    #[must_use]
+    fn are_mid_range(self, other: Self) -> Self::Mask;
 
     /// 2³⁸ (2³⁰⁰ for `f64`): a length of which the cube, six times, is still far from overflow. Scaled
     /// up to it, a problem keeps the products of its small components from underflow.
@@ -173,7 +177,7 @@ fn two_sum<N: Number>(a: N, b: N) -> (N, N) {
 }
 
 macro_rules! scalar {
-    ($t:ident, $mantissa_bits:literal, $max_exponent:literal, $mid_range:expr, $large_length:expr, $sqrt:path, $two_product:path) => {
+    ($t:ident, $mantissa_bits:literal, $exponent_bits:literal, $max_exponent:literal, $large_length:expr, $sqrt:path, $two_product:path) => {
         impl Number for $t {
             type Mask = bool;
 
@@ -219,11 +223,17 @@ macro_rules! scalar {
             fn two_product(self, other: Self) -> (Self, Self) {
                 $two_product(self, other)
             }
-            #[allow(clippy::cast_possible_truncation)] // powers of two that f32 has
             #[inline(always)]
             fn is_mid_range(self) -> bool {
-                let magnitude = $t::abs(self);
-                (magnitude >= $mid_range.0) & (magnitude <= $mid_range.1)
+                self.are_mid_range(self)
+            }
+            #[inline(always)]
+            fn are_mid_range(self, other: Self) -> bool {
+                // The exponent less the lowest, the sign shifted out: in the middle half the top bit
+                // is clear. In integers it runs beside the arithmetic on floats.
+                let lowest = ($max_exponent / 4 + 1) << ($mantissa_bits + 1);
+                let above = |x: $t| (x.to_bits() << 1).wrapping_sub(lowest);
+                (above(self) | above(other)) >> ($mantissa_bits + $exponent_bits) == 0
             }
             #[allow(clippy::cast_possible_truncation)] // a power of two that f32 has
             #[inline(always)]
@@ -305,16 +315,8 @@ const fn pow2(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-scalar!(
-    f32,
-    23,
-    0xff,
-    (pow2(-80) as f32, pow2(80) as f32),
-    pow2(38),
-    root32::sqrt,
-    two_product_f32
-);
-scalar!(f64, 52, 0x7ff, (pow2(-600), pow2(600)), pow2(300), root64::sqrt, two_product_f64);
+scalar!(f32, 23, 8, 0xff, pow2(38), root32::sqrt, two_product_f32);
+scalar!(f64, 52, 11, 0x7ff, pow2(300), root64::sqrt, two_product_f64);
 
 /// Three numbers x, y, z (or three times several, side by side in lanes), as a kernel body sees
 /// them.
@@ -577,3 +579,131 @@ vector!(Vec3A, f32, BVec3A, |a: Vec3A, b: Vec3A| {
     let (a_zxy, b_zxy) = (Coordinates::zxy(a), Coordinates::zxy(b));
     Coordinates::zxy(a_zxy * b - a * b_zxy)
 });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Kernels lean on which operand's NaN is dropped.
+    #[test]
+    fn min_and_max_drop_a_nan_in_the_first_operand_only() {
+        fn check<T: Scalar>() {
+            let (one, nan) = (T::ONE, T::ZERO / T::ZERO);
+            assert!(Number::min(nan, one) == one && Number::max(nan, one) == one);
+            let (low, high) = (Number::min(one, nan), Number::max(one, nan));
+            assert!(low.partial_cmp(&low).is_none() && high.partial_cmp(&high).is_none());
+        }
+        check::<f32>();
+        check::<f64>();
+    }
+
+    #[test]
+    fn folding_drops_components_that_are_nan() {
+        fn check<V: Vector>() {
+            let [zero, one] = [V::Scalar::ZERO, V::Scalar::ONE];
+            let nan = zero / zero;
+            for v in [V::new(nan, one, zero), V::new(one, nan, zero), V::new(one, zero, nan)] {
+                assert_eq!((v.fold_min(one + one), v.fold_max(-one)), (zero, one));
+                let (low, high) = (v.fold_min(nan), v.fold_max(nan));
+                assert!(low.partial_cmp(&low).is_none() && high.partial_cmp(&high).is_none());
+                assert!(!v.all_le(V::INFINITY) && !V::NEG_INFINITY.all_le(v));
+            }
+        }
+        check::<Vec3>();
+        check::<Vec3A>();
+        check::<DVec3>();
+    }
+
+    #[test]
+    fn a_cross_product_is_antisymmetric_to_the_last_bit() {
+        fn check<V: Vector>() {
+            let number = |x: f64| V::Scalar::ONE.lit(x);
+            let a = V::new(number(0.1), number(0.7), number(-1.3));
+            let b = V::new(number(2.3), number(-0.9), number(0.3));
+            assert_eq!(a.cross(b), -b.cross(a));
+            assert_eq!(a.cross(a), V::ZERO);
+            let axes = [
+                V::new(number(1.0), number(0.0), number(0.0)),
+                V::new(number(0.0), number(1.0), number(0.0)),
+            ];
+            assert_eq!(axes[0].cross(axes[1]), V::new(number(0.0), number(0.0), number(1.0)));
+            assert_eq!(
+                (axes[0].yzx(), axes[0].zxy()),
+                (V::new(number(0.0), number(0.0), number(1.0)), axes[1])
+            );
+        }
+        check::<Vec3>();
+        check::<Vec3A>();
+        check::<DVec3>();
+    }
+
+    #[test]
+    fn the_middle_half_of_the_exponents() {
+        let pow = |e| f32::from_bits(((127 + e) as u32) << 23);
+        for inside in [1.0, -1.0, pow(-63), pow(64), pow(64) * 1.5] {
+            assert!(inside.is_mid_range(), "{inside}");
+        }
+        for outside in [0.0, -0.0, 1e-45, pow(-64), -pow(65), f32::INFINITY, f32::NAN] {
+            assert!(!outside.is_mid_range(), "{outside}");
+            assert!(!outside.are_mid_range(1.0) && !1.0_f32.are_mid_range(outside));
+        }
+        assert!(
+            (1e-150_f64).is_mid_range() && !(1e-160_f64).is_mid_range() && !f64::NAN.is_mid_range()
+        );
+    }
+
+    #[test]
+    fn a_normalizer_is_a_power_of_two() {
+        for x in [1.0_f32, -3.0, 1e-30, 1e30, f32::MIN_POSITIVE] {
+            let scaled = (x * x.normalizer()).abs();
+            assert!((1.0..2.0).contains(&scaled), "{x}");
+            assert_eq!(x.normalizer().to_bits() << 9, 0, "{x}");
+        }
+        assert_eq!((f32::MAX * f32::MAX.normalizer()).floor(), 3.0);
+        assert_eq!(0.0_f32.normalizer(), 2.0_f32.powi(127));
+        assert!((1e-45_f32 * 1e-45_f32.normalizer()) > 0.0);
+        assert_eq!(10.0_f64.normalizer(), 0.125);
+    }
+
+    #[test]
+    fn ratios_that_are_no_floats() {
+        let (large, small) = (2.0_f32.powi(127), 2.0_f32.powi(-126));
+        assert_eq!(
+            1.5e-38_f32.times_ratio(large, 2.0_f32.powi(-20)),
+            1.5e-38 * large * 2.0_f32.powi(20)
+        );
+        assert_eq!(1.5_f32.times_ratio(small, large), 0.0);
+        assert_eq!(3.0_f32.times_ratio(8.0, 2.0), 12.0);
+    }
+
+    #[test]
+    fn sums_are_rounded_as_told() {
+        let tiny = 2.0_f32.powi(-60);
+        assert_eq!((1.0_f32.add_up(tiny), 1.0_f32.add_up(-tiny)), (1.0_f32.next_up(), 1.0));
+        assert_eq!((1.0_f32.add_down(tiny), 1.0_f32.add_down(-tiny)), (1.0, 1.0_f32.next_down()));
+        assert_eq!((1.5_f64.add_up(0.25), 1.5_f64.add_down(0.25)), (1.75, 1.75));
+        assert_eq!(f32::NEG_INFINITY.add_down(1.0), f32::NEG_INFINITY);
+    }
+
+    #[test]
+    fn a_product_and_its_error() {
+        let (a, b) = (1.0 + f32::EPSILON, 1.0 + f32::EPSILON);
+        assert_eq!(a.two_product(b), (1.0 + 2.0 * f32::EPSILON, f32::EPSILON * f32::EPSILON));
+        let (a, b) = (1.0 + f64::EPSILON, 1.0 + f64::EPSILON);
+        assert_eq!(a.two_product(b), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
+    }
+
+    #[test]
+    fn lengths_of_any_size() {
+        for scale in [1.0, 1e-38, 1e38, 1e-44] {
+            let length = Coordinates::abs(Vec3::new(2.0, -1.0, 2.0) * scale).length();
+            let exact = 3.0 * scale;
+            assert!(
+                (Vector::length(Vec3::new(2.0, -1.0, 2.0) * scale) - exact).abs()
+                    <= 2e-7 * exact + 2e-45
+            );
+            assert!(length >= 0.0);
+        }
+        assert_eq!(Vector::length(Vec3A::ZERO), 0.0);
+    }
+}

@@ -74,14 +74,63 @@ fn parallel_or_extreme<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<Plan
     let longest = Coordinates::abs(plane.normal).max_element();
     let scale = if (longest * longest).is_mid_range() { one } else { longest.normalizer() };
     let large = one.lit(TWO_TO_60);
-    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer() * large;
+    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
     let plane = Plane { normal: plane.normal * scale, offset: plane.offset * scale };
-    let unit_ray = Ray { direction: ray.direction * t_scale, ..*ray };
-    let (numerator, denominator) = fraction(&unit_ray, &plane);
+    // Two steps, as the product of both factors may not be a float.
+    let long_ray = Ray { direction: ray.direction * t_scale * large, ..*ray };
+    let (numerator, denominator) = fraction(&long_ray, &plane);
     if denominator == V::Scalar::ZERO {
         let contained = numerator == V::Scalar::ZERO && ray.t_min <= ray.t_max;
         return contained.then_some(PlaneHit::Contained);
     }
-    let t = numerator / denominator * t_scale;
+    let t = numerator / denominator * large * t_scale;
     in_range(t, ray.t_min, ray.t_max).then_some(PlaneHit::At(t))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    const FLOOR: Plane = Plane { normal: Vec3::new(0.0, 3.0, 0.0), offset: 6.0 };
+
+    #[test]
+    fn three_outcomes() {
+        let from = |y: f32, direction: Vec3| Ray::new(Vec3::new(7.0, y, 0.0), direction);
+        assert_eq!(intersect(&from(4.0, Vec3::NEG_Y * 0.5), &FLOOR), Some(PlaneHit::At(4.0)));
+        assert_eq!(intersect(&from(4.0, Vec3::Y), &FLOOR), None, "behind");
+        assert_eq!(intersect(&from(4.0, Vec3::X), &FLOOR), None, "parallel");
+        assert_eq!(intersect(&from(2.0, Vec3::X), &FLOOR), Some(PlaneHit::Contained));
+        assert_eq!(intersect(&from(2.0, Vec3::Y), &FLOOR), Some(PlaneHit::At(0.0)));
+        let line = from(4.0, Vec3::Y).with_range(f32::NEG_INFINITY, f32::INFINITY);
+        assert_eq!(intersect(&line, &FLOOR), Some(PlaneHit::At(-2.0)));
+    }
+
+    #[test]
+    fn an_empty_range_contains_nothing() {
+        let along = Ray::new(Vec3::new(0.0, 2.0, 0.0), Vec3::X);
+        assert_eq!(intersect(&along.with_range(1.0, 0.0), &FLOOR), None);
+        assert_eq!(intersect(&along.with_range(f32::NAN, 1.0), &FLOOR), None);
+        assert_eq!(intersect(&along.with_range(1.0, 1.0), &FLOOR), Some(PlaneHit::Contained));
+    }
+
+    #[test]
+    fn lengths_of_normal_and_direction_do_not_matter() {
+        for (normal, direction) in [
+            (1e-30, 1e-30),
+            (1e30, 1e30),
+            (1e-38, 1.0),
+            (1.0, 1e-40),
+            (1e25, 1e-30),
+            (1e-38, 1e-37),
+        ] {
+            let plane = Plane::from_point_normal(Vec3::Y, Vec3::Y * normal).expect("not zero");
+            let ray = Ray::new(Vec3::new(0.0, 1.5, 0.0), Vec3::NEG_Y * direction);
+            let Some(PlaneHit::At(t)) = intersect(&ray, &plane) else {
+                panic!("{normal} {direction}")
+            };
+            // A subnormal direction has few bits of its own.
+            assert!((t * direction - 0.5).abs() < 1e-4, "{t} {normal} {direction}");
+        }
+    }
 }

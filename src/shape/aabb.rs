@@ -262,17 +262,73 @@ impl Face {
             _ => V::new(zero, zero, sign),
         }
     }
+}
 
-    /// The face across `axis` (0, 1, and for anything else 2), on the positive side or not.
-    #[inline]
-    pub(crate) const fn across(axis: usize, positive: bool) -> Self {
-        match (axis, positive) {
-            (0, false) => Self::NegX,
-            (0, true) => Self::PosX,
-            (1, false) => Self::NegY,
-            (1, true) => Self::PosY,
-            (_, false) => Self::NegZ,
-            (_, true) => Self::PosZ,
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Affine3A, Vec3A};
+
+    #[test]
+    fn an_empty_box_is_left_out_and_overlaps_nothing() {
+        let unit = Aabb::new(Vec3::ZERO, Vec3::ONE);
+        let inverted = Aabb::new(Vec3::ONE, Vec3::ZERO);
+        for empty in [Aabb::EMPTY, inverted, Aabb::default()] {
+            assert!(empty.is_empty() && !empty.overlaps(&unit) && !unit.overlaps(&empty));
+            assert_eq!((empty.union(&unit), unit.union(&empty)), (unit, unit));
+            assert!(empty.intersection(&unit).is_empty() && unit.intersection(&empty).is_empty());
+            assert!(
+                empty.inflated(2.0).is_empty() && empty.transformed(&Affine3A::IDENTITY).is_empty()
+            );
+            assert_eq!((empty.size(), empty.surface_area()), (Vec3::ZERO, 0.0));
+            assert!(!empty.contains(Vec3::splat(0.5)));
+        }
+    }
+
+    #[test]
+    fn measures() {
+        let aabb = Aabb::new(Vec3::new(0.0, -1.0, 2.0), Vec3::new(1.0, 1.0, 5.0));
+        assert_eq!(aabb.size(), Vec3::new(1.0, 2.0, 3.0));
+        assert_eq!(aabb.surface_area(), 22.0);
+        assert_eq!(aabb.center(), Vec3::new(0.5, 0.0, 3.5));
+        assert_eq!(aabb.longest_axis(), 2);
+        assert_eq!(Aabb::<Vec3A>::new(Vec3A::ZERO, Vec3A::ONE).longest_axis(), 0);
+        assert_eq!(
+            Aabb::from_center_half_extents(Vec3::ONE, Vec3::splat(0.5)).min,
+            Vec3::splat(0.5)
+        );
+        assert_eq!(Aabb::from_points(aabb.corners()), aabb);
+        assert_eq!(aabb.corners()[0b110], Vec3::new(0.0, 1.0, 5.0));
+        assert!(aabb.contains(aabb.min) && aabb.contains(aabb.max));
+        assert!(aabb.overlaps(&Aabb::new(aabb.max, aabb.max)), "touching");
+    }
+
+    #[test]
+    fn a_nan_is_left_out() {
+        let nan = Vec3::new(f32::NAN, 2.0, f32::NAN);
+        let aabb = Aabb::new(Vec3::ZERO, Vec3::ONE).including(nan);
+        assert_eq!(aabb, Aabb::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 1.0)));
+        assert!(Aabb::new(nan, nan).is_empty());
+    }
+
+    #[test]
+    fn an_unbounded_box_can_be_transformed() {
+        let half_space =
+            Aabb::new(Vec3::new(1.0, f32::NEG_INFINITY, f32::NEG_INFINITY), Vec3::INFINITY);
+        let map = Affine3A::from_scale(Vec3::new(-2.0, 1.0, 1.0));
+        let image = half_space.transformed(&map);
+        assert!(image.contains(Vec3::new(-2.0, 1e30, -1e30)) && image.max.x < -1.999);
+        assert_eq!(image.min, Vec3::NEG_INFINITY);
+    }
+
+    #[test]
+    fn faces_know_their_normals() {
+        let faces = [Face::NegX, Face::PosX, Face::NegY, Face::PosY, Face::NegZ, Face::PosZ];
+        for (i, face) in faces.into_iter().enumerate() {
+            assert_eq!((face.axis(), face.sign()), (i / 2, if i % 2 == 0 { -1 } else { 1 }));
+            let normal: Vec3 = face.normal();
+            assert_eq!(normal[face.axis()], f32::from(face.sign()));
+            assert_eq!(normal.abs().element_sum(), 1.0);
         }
     }
 }

@@ -67,3 +67,38 @@ impl<V: Vector> Plane<V> {
         self.normal.is_finite() && self.offset.is_finite() && V::Scalar::ZERO.lt(longest)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_ways_to_the_same_plane() {
+        let (a, b, c) =
+            (Vec3::new(0.0, 0.0, 2.0), Vec3::new(1.0, 0.0, 2.0), Vec3::new(0.0, 1.0, 2.0));
+        let expected = Some(Plane { normal: Vec3::Z, offset: 2.0 });
+        assert_eq!(Plane::from_point_normal(a, Vec3::Z), expected);
+        assert_eq!(Plane::from_point_spans(a, b - a, c - a), expected);
+        assert_eq!(Plane::from_points(a, b, c), expected);
+        assert_eq!(Plane::from_hesse(Vec3::Z, 2.0), expected);
+    }
+
+    #[test]
+    fn degenerate_planes_are_refused() {
+        let (a, b) = (Vec3::ZERO, Vec3::ONE);
+        assert_eq!(Plane::from_points(a, b, b * 2.0), None);
+        assert_eq!(Plane::from_point_spans(a, b, -b), None);
+        assert_eq!(Plane::from_point_normal(b, Vec3::ZERO), None);
+        assert_eq!(Plane::from_hesse(Vec3::new(f32::NAN, 1.0, 0.0), 0.0), None);
+        assert_eq!(Plane::from_hesse(Vec3::X, f32::INFINITY), None);
+    }
+
+    #[test]
+    fn distances_are_signed_and_in_units_of_length() {
+        let plane = Plane { normal: Vec3::new(0.0, 0.0, 4.0), offset: 8.0 };
+        assert_eq!(plane.signed_distance(Vec3::new(5.0, 5.0, 3.0)), 1.0);
+        assert_eq!(plane.signed_distance(Vec3::ZERO), -2.0);
+        let nowhere = Plane { normal: Vec3::ZERO, offset: 0.0 };
+        assert!(nowhere.signed_distance(Vec3::ZERO).is_nan());
+    }
+}

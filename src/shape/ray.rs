@@ -100,3 +100,41 @@ impl<V: Vector> Ray<V> {
         self.origin.is_finite() && self.direction.is_finite() && V::Scalar::ZERO.lt(longest)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Affine3, Affine3A, DAffine3, DMat4, DVec3, Mat4, Vec3A};
+
+    #[test]
+    fn ranges() {
+        let ray = Ray::new(Vec3::ZERO, Vec3::X);
+        assert_eq!((ray.t_min, ray.t_max), (0.0, f32::INFINITY));
+        assert_eq!(
+            Ray::segment(Vec3::ONE, Vec3::ZERO),
+            Ray::new(Vec3::ONE, -Vec3::ONE).with_range(0.0, 1.0)
+        );
+        let open = ray.after(1.0).before(2.0);
+        assert!(open.t_min > 1.0 && open.t_max < 2.0);
+        assert_eq!(ray.after(-0.0).t_min, f32::from_bits(1));
+    }
+
+    #[test]
+    fn every_affine_map_moves_a_ray_alike() {
+        let map =
+            Affine3A::from_scale(Vec3::new(1.0, 2.0, 4.0)) * Affine3A::from_translation(Vec3::X);
+        let ray = Ray::new(Vec3A::ONE, Vec3A::new(1.0, 1.0, 0.0)).with_range(1.0, 3.0);
+        let expected =
+            Ray::new(Vec3A::new(2.0, 2.0, 4.0), Vec3A::new(1.0, 2.0, 0.0)).with_range(1.0, 3.0);
+        assert_eq!(ray.transformed(&map), expected);
+        assert_eq!(ray.transformed(&Mat4::from(map)), expected);
+        assert_eq!(ray.transformed(&Affine3::from(map)), expected);
+        let (ray, expected) = (Ray::<Vec3>::from(ray), Ray::<Vec3>::from(expected));
+        assert_eq!(ray.transformed(&map), expected);
+        let (ray, expected) = (Ray::<DVec3>::from(ray), Ray::<DVec3>::from(expected));
+        let map =
+            DAffine3::from_scale(DVec3::new(1.0, 2.0, 4.0)) * DAffine3::from_translation(DVec3::X);
+        assert_eq!(ray.transformed(&map), expected);
+        assert_eq!(ray.transformed(&DMat4::from(map)), expected);
+    }
+}

@@ -54,3 +54,21 @@ impl<V: Vector> Sphere<V> {
         self.center.is_finite() && self.radius.is_finite() && V::Scalar::ZERO.le(self.radius)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_and_bounds() {
+        let sphere = Sphere::new(Vec3::new(1.0, 0.0, 0.0), 2.0);
+        assert_eq!(sphere.normal_at(Vec3::new(1.0, 5.0, 0.0)), Vec3::Y);
+        assert_eq!(sphere.normal_at(sphere.center), Vec3::ZERO);
+        assert_eq!(sphere.aabb(), Aabb::new(Vec3::new(-1.0, -2.0, -2.0), Vec3::new(3.0, 2.0, 2.0)));
+        assert!(Sphere::new(Vec3::ZERO, -1.0).aabb().is_empty());
+        assert!(Sphere::new(Vec3::ZERO, f32::NAN).aabb().is_empty());
+        // 1 + 2⁻³⁰ is not a float: the box is the next larger.
+        let inexact = Sphere::new(Vec3::ONE, 2.0_f32.powi(-30)).aabb();
+        assert_eq!((inexact.min.x, inexact.max.x), (1.0_f32.next_down(), 1.0_f32.next_up()));
+    }
+}

@@ -71,3 +71,17 @@ impl<V: Vector> From<Triangle<V>> for [V; 3] {
         [triangle.v0, triangle.v1, triangle.v2]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measures() {
+        let triangle = Triangle::from([Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 4.0]);
+        assert_eq!((triangle.normal(), triangle.area()), (Vec3::Z * 8.0, 4.0));
+        assert_eq!(triangle.at(0.25, 0.5), Vec3::new(0.5, 2.0, 0.0));
+        assert_eq!(triangle.aabb(), Aabb::new(Vec3::ZERO, Vec3::new(2.0, 4.0, 0.0)));
+        assert_eq!(<[Vec3; 3]>::from(triangle), [triangle.v0, triangle.v1, triangle.v2]);
+    }
+}

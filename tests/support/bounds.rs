@@ -87,6 +87,11 @@ pub fn moller_trumbore(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]
 pub fn badouel(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Option<Bound> {
     let [v0, v1, v2] = triangle;
     let (e1, e2, s, d) = (sub(v1, v0), sub(v2, v0), sub(&ray.origin, v0), ray.direction);
+    // Products of edge components below 2⁻⁵⁰ of the longest underflow.
+    let longest = largest(&e1).max(largest(&e2));
+    if e1.iter().chain(&e2).any(|x| *x != 0.0 && x.abs() < 2_f64.powi(-50) * longest) {
+        return None;
+    }
     let n = cross(&e1, &e2);
     let p_n = permanents(&e1, &e2);
     let det = dot(&d, &n).abs();

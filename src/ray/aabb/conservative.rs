@@ -33,10 +33,14 @@ use crate::vector::{Number, Scalar, Vector};
 #[must_use]
 pub fn interval<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<[V::Scalar; 2]> {
     let (t_enter, t_exit) = bounds(ray, aabb);
-    let overlap = aabb.min.all_le(aabb.max) & t_enter.le(t_exit);
-    // A bound that has overflowed stands for a finite t beyond the largest float.
+    // A bound that has overflowed stands for a finite t beyond the largest float. (Written so that it
+    // compiles to conditional moves and not to branches, which random rays would mispredict.)
     let largest = V::Scalar::MAX;
-    overlap.then(|| [t_enter.min(largest), t_exit.max(-largest)])
+    let mut interval = Some([t_enter.min(largest), t_exit.max(-largest)]);
+    if !(aabb.min.all_le(aabb.max) & t_enter.le(t_exit)) {
+        interval = None;
+    }
+    interval
 }
 
 /// Whether the ray may hit the box: [`interval`] is not `None`.

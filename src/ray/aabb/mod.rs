@@ -85,7 +85,11 @@ pub struct BoxRay<V: Coordinates = Vec3> {
     far_inverse: V,
     /// The components in which the ray comes from the side of `max`.
     backward: V::Mask3,
+    /// The same by axis: 1 where it comes from the side of `max`, else 0.
+    entry_side: [u8; 3],
     t_min: V::Scalar,
+    /// `t_min`, or the least float for a range without a start.
+    t_first: V::Scalar,
     /// The greatest t that counts, as in [`Ray::t_max`]; a traversal lowers it to the closest hit
     /// so far.
     pub t_max: V::Scalar,
@@ -100,7 +104,7 @@ impl<V: Vector> BoxRay<V> {
     #[inline]
     #[must_use]
     pub fn new(ray: &Ray<V>) -> Self {
-        let Ray { origin, direction, t_min, t_max } = *ray;
+        let Ray { origin, direction, t_max, .. } = *ray;
         let zero = V::Scalar::ZERO;
         let inverse = V::splat(V::Scalar::ONE).divided(direction);
         // With u = EPSILON/2: a computed difference p − o is too long by at most the factor 1 + u,
@@ -120,6 +124,8 @@ impl<V: Vector> BoxRay<V> {
         };
         let stepped = |outward| inverse.map(|x| step(step(step(x, outward), outward), outward));
         let valid = ray.is_valid();
+        // Of a ray that hits nothing, a NaN that no comparison lets through.
+        let t_min = if valid { ray.t_min } else { zero / zero };
         // Up to an eighth of the largest float's ulp, adding the origin to it does not overflow.
         let far_away = V::Scalar::MAX * V::Scalar::EPSILON * zero.lit(0.125);
         let overflow = |axis: usize| {
@@ -134,8 +140,9 @@ impl<V: Vector> BoxRay<V> {
             near_inverse: stepped(false),
             far_inverse: stepped(true),
             backward: inverse.less(V::ZERO),
-            // A NaN that no comparison lets through.
-            t_min: if valid { t_min } else { zero / zero },
+            entry_side: [0, 1, 2].map(|axis| u8::from(inverse.component(axis) < zero)),
+            t_min,
+            t_first: (-V::Scalar::MAX).max(t_min),
             t_max,
             extreme: valid && (0..3).any(overflow),
             before_origin: t_min < zero,
@@ -178,5 +185,123 @@ impl<V: Vector> BoxRay<V> {
         };
         let [(x0, x1), (y0, y1), (z0, z1)] = [bounds(0), bounds(1), bounds(2)];
         (V::new(x0, y0, z0), V::new(x1, y1, z1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec3A};
+
+    const UNIT: Aabb = Aabb::new(Vec3::ZERO, Vec3::ONE);
+
+    fn hits(ray: &Ray, aabb: &Aabb) -> bool {
+        let ray = BoxRay::new(ray);
+        let verdicts = [
+            slab::hits(&ray, aabb),
+            slab::intersect(&ray, aabb).is_some(),
+            conservative::hits(&ray, aabb),
+            conservative::interval(&ray, aabb).is_some(),
+        ];
+        assert!(verdicts.iter().all(|v| *v == verdicts[0]), "{ray:?} {aabb:?} {verdicts:?}");
+        verdicts[0]
+    }
+
+    /// Along every face, edge and diagonal, with zeros of both signs in the direction.
+    #[test]
+    fn parallel_rays_on_the_surface_hit() {
+        for zero in [0.0, -0.0] {
+            for (y, z) in [(0.0, 0.0), (0.0, 0.5), (1.0, 0.5), (1.0, 1.0), (0.5, 0.5)] {
+                for (x, dx) in [(-1.0, 1.0), (2.0, -1.0), (0.0, 1.0), (1.0, 1.0), (0.5, -1.0)] {
+                    let ray = Ray::new(Vec3::new(x, y, z), Vec3::new(dx, zero, zero));
+                    assert!(hits(&ray, &UNIT), "{ray:?}");
+                }
+            }
+            for (y, z) in [(-0.01, 0.5), (1.01, 0.5), (0.5, 1.01), (1.01, 1.01)] {
+                let ray = Ray::new(Vec3::new(-1.0, y, z), Vec3::new(1.0, zero, zero));
+                assert!(!hits(&ray, &UNIT), "{ray:?}");
+                let line = ray.with_range(f32::NEG_INFINITY, f32::INFINITY);
+                assert!(!hits(&line, &UNIT), "{line:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn flat_boxes_and_points_are_hit() {
+        let through = Ray::new(Vec3::new(0.5, 0.5, -1.0), Vec3::Z);
+        assert!(hits(&through, &Aabb::new(Vec3::ZERO, Vec3::new(1.0, 1.0, 0.0))));
+        let within = Ray::new(Vec3::new(-1.0, 0.5, 0.0), Vec3::X);
+        assert!(hits(&within, &Aabb::new(Vec3::ZERO, Vec3::new(1.0, 1.0, 0.0))));
+        let corner = Ray::new(Vec3::splat(-1.0), Vec3::ONE);
+        assert!(hits(&corner, &Aabb::new(Vec3::ONE, Vec3::ONE)));
+        assert!(!hits(&corner, &Aabb::new(Vec3::X, Vec3::X)));
+    }
+
+    #[test]
+    fn empty_boxes_are_not() {
+        let ray =
+            Ray::new(Vec3::splat(0.5), Vec3::ONE).with_range(f32::NEG_INFINITY, f32::INFINITY);
+        assert!(!hits(&ray, &Aabb::EMPTY));
+        for axis in 0..3 {
+            let mut inverted = UNIT;
+            inverted.min[axis] = 1.0_f32.next_up();
+            assert!(!hits(&ray, &inverted));
+            let mut nan = UNIT;
+            nan.max[axis] = f32::NAN;
+            assert!(!hits(&ray, &nan));
+        }
+    }
+
+    #[test]
+    fn the_range_is_closed_and_may_be_negative() {
+        let ray = Ray::new(Vec3::new(3.0, 0.5, 0.5), Vec3::X);
+        assert!(!hits(&ray, &UNIT));
+        assert!(hits(&ray.with_range(-2.5, -2.0), &UNIT));
+        assert!(hits(&ray.with_range(-9.0, -3.0), &UNIT));
+        assert!(!hits(&ray.with_range(-1.5, 9.0), &UNIT));
+        let hit = slab::intersect(&BoxRay::new(&ray.with_range(-9.0, 9.0)), &UNIT).expect("a hit");
+        assert_eq!((hit.t_enter, hit.t_exit), (-3.0, -2.0));
+    }
+
+    #[test]
+    fn the_surface_from_outside_inside_and_within_the_range() {
+        let across = Ray::new(Vec3::new(-1.0, 0.5, 0.5), Vec3::X);
+        let surface = |ray: &Ray| ray.intersect(&UNIT).expect("a hit").surface();
+        assert_eq!(surface(&across), Some((1.0, Face::NegX)));
+        assert_eq!(surface(&across.after(1.0)), Some((2.0, Face::PosX)));
+        assert_eq!(surface(&across.with_range(1.25, 1.75)), None);
+        // Through an edge and a corner: the first axis.
+        let diagonal = Ray::new(Vec3::new(-1.0, 2.0, 0.5), Vec3::new(1.0, -1.0, 0.0));
+        let hit = diagonal.intersect(&UNIT).expect("a hit");
+        assert_eq!((hit.enter_face, hit.exit_face), (Some(Face::NegX), Some(Face::PosX)));
+        let back = Ray::new(Vec3::splat(2.0), -Vec3::ONE).intersect(&UNIT).expect("a hit");
+        assert_eq!((back.enter_face, back.exit_face), (Some(Face::PosX), Some(Face::NegX)));
+    }
+
+    #[test]
+    fn unbounded_boxes() {
+        let half_space =
+            Aabb::new(Vec3::new(f32::NEG_INFINITY, f32::NEG_INFINITY, 0.0), Vec3::INFINITY);
+        let hit = Ray::new(Vec3::NEG_Z, Vec3::Z).intersect(&half_space).expect("a hit");
+        assert_eq!((hit.t_enter, hit.enter_face), (1.0, Some(Face::NegZ)));
+        assert_eq!((hit.t_exit, hit.exit_face), (f32::INFINITY, None));
+        assert!(!slab::hits(&BoxRay::new(&Ray::new(Vec3::NEG_Z, Vec3::X)), &half_space));
+        let everything = Aabb::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
+        let line = Ray::new(Vec3::ONE, Vec3::ONE).with_range(f32::NEG_INFINITY, f32::INFINITY);
+        let hit = line.intersect(&everything).expect("a hit");
+        assert_eq!(
+            (hit.t_enter, hit.t_exit, hit.surface()),
+            (f32::NEG_INFINITY, f32::INFINITY, None)
+        );
+    }
+
+    #[test]
+    fn all_vectors_give_the_same_faces() {
+        let ray = Ray::new(Vec3::new(0.5, 3.0, 0.5), Vec3::new(0.25, -2.0, 0.125));
+        let hit = ray.intersect(&UNIT).expect("a hit");
+        let (wide_ray, wide_box) = (Ray::<Vec3A>::from(ray), Aabb::<Vec3A>::from(UNIT));
+        assert_eq!(wide_ray.intersect(&wide_box), Some(hit));
+        let exact = Ray::<DVec3>::from(ray).intersect(&Aabb::<DVec3>::from(UNIT)).expect("a hit");
+        assert_eq!((exact.enter_face, exact.exit_face), (hit.enter_face, hit.exit_face));
     }
 }

@@ -33,32 +33,43 @@ use crate::vector::{Number, Scalar, Vector};
 #[inline]
 #[must_use]
 pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V::Scalar>> {
-    let (near, far) = slabs(ray, aabb);
     let infinity = V::Scalar::INFINITY;
+    let (near, far) = slabs(ray, aabb);
     let (last_entry, first_exit) = (near.fold_max(-infinity), far.fold_min(infinity));
     let (t_enter, t_exit) = (last_entry.max(ray.t_min), first_exit.min(ray.t_max));
-    if !overlap(aabb, t_enter, t_exit) {
-        return None;
-    }
     // Where the range clips, or the box is unbounded, no face is crossed.
-    let face = |bounds: V, t: V::Scalar, crossed: bool, far_side: bool| {
-        let axis = if bounds.x() == t {
-            0
-        } else if bounds.y() == t {
-            1
-        } else {
-            2
-        };
-        let backward = ray.direction.component(axis) < V::Scalar::ZERO;
-        (crossed && t.is_finite()).then(|| Face::across(axis, backward != far_side))
+    let face = |bounds: V, t: V::Scalar, crossed: bool, far_side: u8| {
+        let (not_x, not_y) = (usize::from(bounds.x() != t), usize::from(bounds.y() != t));
+        let axis = not_x + (not_x & not_y);
+        let face = 2 * axis + usize::from(ray.entry_side[axis] ^ far_side);
+        FACES[if crossed & t.is_finite() { face } else { NO_FACE }]
     };
-    Some(AabbHit {
+    // Written so that it compiles to conditional moves and not to branches, which random rays would
+    // mispredict.
+    let mut hit = Some(AabbHit {
         t_enter,
         t_exit,
-        enter_face: face(near, last_entry, last_entry >= ray.t_min, false),
-        exit_face: face(far, first_exit, first_exit <= ray.t_max, true),
-    })
+        enter_face: face(near, last_entry, last_entry >= ray.t_min, 0),
+        exit_face: face(far, first_exit, first_exit <= ray.t_max, 1),
+    });
+    if !overlap(aabb, last_entry.max(ray.t_first), t_exit) {
+        hit = None;
+    }
+    hit
 }
+
+const NO_FACE: usize = 6;
+
+/// By axis, then side; and none.
+const FACES: [Option<Face>; 7] = [
+    Some(Face::NegX),
+    Some(Face::PosX),
+    Some(Face::NegY),
+    Some(Face::PosY),
+    Some(Face::NegZ),
+    Some(Face::PosZ),
+    None,
+];
 
 /// Whether the ray hits the box: the same verdict as [`intersect`], for less.
 ///
@@ -74,7 +85,7 @@ pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V
 #[must_use]
 pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
     let (near, far) = slabs(ray, aabb);
-    overlap(aabb, near.fold_max(ray.t_min), far.fold_min(ray.t_max))
+    overlap(aabb, near.fold_max(ray.t_first), far.fold_min(ray.t_max))
 }
 
 /// The t at which the ray enters and leaves each slab. For a parallel ray in a plane of the box one
@@ -88,10 +99,10 @@ fn slabs<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V, V) {
     (near.scaled(ray.inverse), far.scaled(ray.inverse))
 }
 
-/// Whether what is left of the range is not empty. The entry of a parallel ray outside of its slab
-/// is infinite, and so is the exit from an unbounded box: an infinite entry is a miss.
+/// Whether what is left of the range is not empty. For a parallel ray outside of its slab the entry
+/// is +∞, or the exit −∞, and so may be the exit and the entry of an unbounded box: a finite entry
+/// before the exit is a hit.
 #[inline(always)]
 fn overlap<V: Vector>(aabb: &Aabb<V>, t_enter: V::Scalar, t_exit: V::Scalar) -> bool {
-    let largest = V::Scalar::MAX;
-    aabb.min.all_le(aabb.max) & t_enter.le(largest.min(t_exit)) & (-largest).le(t_exit)
+    aabb.min.all_le(aabb.max) & t_enter.le(V::Scalar::MAX.min(t_exit))
 }

@@ -121,3 +121,73 @@ fn nearest<V: Vector>(ray: &Ray<V>, [near, far]: Roots<V::Scalar>) -> Option<Sph
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec3, Vec3A};
+
+    fn kernels<V: Vector>() -> [fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<V::Scalar>>; 3] {
+        [algebraic::intersect, geometric::intersect, robust::intersect]
+    }
+
+    #[test]
+    fn near_far_tangent_and_miss() {
+        let unit = Sphere::new(Vec3A::ZERO, 1.0);
+        let along = |x: f32, z: f32| Ray::new(Vec3A::new(x, 0.0, z), Vec3A::Z * 2.0);
+        for intersect in kernels() {
+            let hit = |t, leaving| Some(SphereHit { t, leaving });
+            assert_eq!(intersect(&along(0.0, -3.0), &unit), hit(1.0, false));
+            assert_eq!(intersect(&along(0.0, 0.0), &unit), hit(0.5, true));
+            assert_eq!(intersect(&along(1.0, -3.0), &unit), hit(1.5, false), "tangent");
+            assert_eq!(intersect(&along(1.01, -3.0), &unit), None);
+            assert_eq!(intersect(&along(0.0, 3.0), &unit), None, "behind");
+            assert_eq!(intersect(&along(0.0, -3.0).after(1.0), &unit), hit(2.0, true));
+            assert_eq!(intersect(&along(0.0, -1.0), &unit), hit(0.0, false), "on the surface");
+            assert_eq!(
+                intersect(&along(0.0, -3.0), &Sphere::new(Vec3A::ZERO, 0.0)),
+                hit(1.5, false)
+            );
+            assert_eq!(intersect(&along(0.0, -3.0), &Sphere::new(Vec3A::ZERO, -1.0)), None);
+        }
+    }
+
+    #[test]
+    fn a_tangent_at_the_origin_of_the_ray() {
+        let sphere = Sphere::new(Vec3::X, 1.0);
+        let hit = robust::intersect(&Ray::new(Vec3::ZERO, Vec3::Y), &sphere);
+        assert_eq!(hit, Some(SphereHit { t: 0.0, leaving: false }));
+    }
+
+    /// The textbook discriminant loses all of the radius here.
+    #[test]
+    fn robust_is_accurate_from_afar() {
+        let ray = Ray::new(Vec3::new(0.0, 0.5, -1.0e5), Vec3::Z);
+        let [near, far] = roots(&ray, &Sphere::new(Vec3::ZERO, 1.0)).expect("a hit");
+        let half_chord = 0.75_f32.sqrt();
+        // Two ulps of 1e5.
+        assert!(
+            (near - (1.0e5 - half_chord)).abs() <= 0.016
+                && (far - (1.0e5 + half_chord)).abs() <= 0.016
+        );
+    }
+
+    #[test]
+    fn lengths_of_any_size() {
+        // From three radii away, far from the cancellations: within a few ulps.
+        for scale in [1e-18_f32, 1e18, 1e-37, 1e37] {
+            for (length, t) in [(1.0, 2.0 * scale), (scale, 2.0)] {
+                let ray = Ray::new(Vec3::new(0.0, 0.0, -3.0 * scale), Vec3::Z * length);
+                let sphere = Sphere::new(Vec3::ZERO, scale);
+                for intersect in kernels() {
+                    let hit = intersect(&ray, &sphere).expect("a hit");
+                    assert!((hit.t - t).abs() <= 8.0 * f32::EPSILON * t, "{scale} {length}");
+                }
+                for intersect in kernels::<DVec3>() {
+                    let hit = intersect(&ray.into(), &sphere.into()).expect("a hit");
+                    assert!((hit.t - f64::from(t)).abs() <= f64::from(f32::EPSILON * t));
+                }
+            }
+        }
+    }
+}

@@ -99,7 +99,8 @@ impl<V: Vector> Prepared<V> {
     /// δp_i = u'·(2|s_i| + 3|t·d_i|) + |d_i|·δt; and u by the sum over i of
     /// |a_i|·(δp_i + 10κu'·|p_i − v0_i|), with a = (e2 × k)/(n·k) and κ ≥ 1 the sum of the magnitudes of
     /// the two terms of n·k over |n·k|; v alike with (k × e1)/(n·k). Within that distance of an edge,
-    /// or of an end of the range, the verdict may be wrong.
+    /// or of an end of the range, the verdict may be wrong. (Components of an edge below 2⁻⁵⁰ of the
+    /// longest count as zero.)
     ///
     /// A zero direction, a NaN or infinite field: a miss.
     #[inline]

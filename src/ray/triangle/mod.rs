@@ -149,9 +149,7 @@ impl<N: Number> Solution<N> {
     /// middle of the range of exponents, and the weights are finite.
     #[inline(always)]
     fn is_trustworthy(&self) -> N::Mask {
-        self.determinant.is_mid_range()
-            & self.numerator.is_mid_range()
-            & self.weight0().abs().le(self.t.largest())
+        self.determinant.are_mid_range(self.numerator) & self.weight0().abs().le(self.t.largest())
     }
 
     /// The weight of v0. (The sum first: so the order of the other two does not matter.)
@@ -207,4 +205,143 @@ fn extreme<V: Vector>(
     solution.t = solution.t.times_ratio(t_scale, scale);
     let flat = solution.determinant == V::Scalar::ZERO;
     solution.clipped(ray.t_min, ray.t_max).into_option().filter(|_| !flat)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec3, Vec3A};
+
+    type Kernel<V> = fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<<V as Coordinates>::Scalar>>;
+
+    fn kernels<V: Vector>() -> [Kernel<V>; 5] {
+        [
+            badouel::intersect,
+            moller_trumbore::intersect,
+            segura::intersect,
+            |ray, triangle| watertight::intersect(&watertight::ShearedRay::new(ray), triangle),
+            |ray, triangle| ray.intersect(triangle),
+        ]
+    }
+
+    /// Along each axis, from both sides.
+    #[test]
+    fn the_weights_belong_to_their_vertices() {
+        fn check<V: Vector>() {
+            let number = |x: f64| V::Scalar::ONE.lit(x);
+            let turn = |axis: usize, [x, y, z]: [f64; 3]| -> V {
+                let p = [x, y, z];
+                let component = |i: usize| number(p[(i + axis) % 3]);
+                V::new(component(0), component(1), component(2))
+            };
+            for axis in 0..3 {
+                let corners = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [0.0, 4.0, 1.0]];
+                let triangle = Triangle::from(corners.map(|p| turn(axis, p)));
+                for (z, direction, front) in [(3.0, -2.0, true), (-1.0, 2.0, false)] {
+                    let ray =
+                        Ray::new(turn(axis, [1.0, 2.0, z]), turn(axis, [0.0, 0.0, direction]));
+                    for intersect in kernels::<V>() {
+                        let hit = intersect(&ray, &triangle).expect("it is aimed at the inside");
+                        let expected =
+                            TriangleHit { t: number(1.0), u: number(0.25), v: number(0.5), front };
+                        assert_eq!(hit, expected);
+                        assert_eq!(hit.barycentric(), [0.25, 0.25, 0.5].map(number));
+                        let away = Ray { direction: -ray.direction, ..ray };
+                        assert!(intersect(&away, &triangle).is_none());
+                        assert!(
+                            intersect(&away.with_range(number(-1.0), number(-1.0)), &triangle)
+                                .is_some()
+                        );
+                    }
+                }
+            }
+        }
+        check::<Vec3>();
+        check::<Vec3A>();
+        check::<DVec3>();
+    }
+
+    #[test]
+    fn edges_and_vertices_belong_to_the_triangle() {
+        let triangle = Triangle::new(Vec3::ZERO, Vec3::X * 4.0, Vec3::Y * 4.0);
+        for intersect in kernels::<Vec3>() {
+            let down =
+                |x: f32, y: f32| intersect(&Ray::new(Vec3::new(x, y, 1.0), Vec3::NEG_Z), &triangle);
+            for (x, y) in [(0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (2.0, 0.0), (0.0, 1.0), (1.0, 3.0)] {
+                assert!(down(x, y).is_some(), "{x} {y}");
+            }
+            for (x, y) in [(-0.01, 0.0), (4.01, 0.0), (0.0, 4.01), (2.01, 2.0), (-1.0, -1.0)] {
+                assert!(down(x, y).is_none(), "{x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn parallel_rays_and_triangles_without_area_miss() {
+        let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+        let along = Ray::new(Vec3::new(-1.0, 0.25, 0.0), Vec3::X);
+        let above = Ray::new(Vec3::new(-1.0, 0.25, 0.5), Vec3::X);
+        let down = Ray::new(Vec3::new(0.5, 0.0, 1.0), Vec3::NEG_Z);
+        for intersect in kernels::<Vec3>() {
+            assert!(
+                intersect(&along, &triangle).is_none() && intersect(&above, &triangle).is_none()
+            );
+            for degenerate in [
+                [Vec3::ZERO, Vec3::X, Vec3::X],
+                [Vec3::X, Vec3::ZERO, Vec3::X],
+                [Vec3::ZERO, Vec3::X, Vec3::X * 2.0],
+                [Vec3::X * 0.5; 3],
+            ] {
+                assert!(intersect(&down, &degenerate.into()).is_none(), "{degenerate:?}");
+            }
+        }
+    }
+
+    /// Where det is 1e-40, or e1·e2 is.
+    #[test]
+    fn lengths_of_any_size() {
+        for (size, length) in [
+            (1.0, 1e-37_f32),
+            (1e-3, 1e-40),
+            (1e-20, 1.0),
+            (1e-30, 1e30),
+            (1e20, 1e-5),
+            (1e30, 1e3),
+            (1e12, 1e30),
+        ] {
+            let triangle = Triangle::new(Vec3A::ZERO, Vec3A::X * size, Vec3A::Y * size);
+            let ray = Ray::new(Vec3A::new(0.25, 0.5, 2.0) * size, Vec3A::NEG_Z * length);
+            for (i, intersect) in kernels().into_iter().enumerate() {
+                let hit =
+                    intersect(&ray, &triangle).unwrap_or_else(|| panic!("{i}: {size} {length}"));
+                // The direction itself may be subnormal, and is what it is.
+                let t = 2.0 * size / -ray.direction.z;
+                assert!(
+                    (hit.t - t).abs() <= 8.0 * f32::EPSILON * t,
+                    "{i}: {size} {length} {}",
+                    hit.t
+                );
+                assert!(
+                    (hit.u - 0.25).abs() <= 8.0 * f32::EPSILON
+                        && (hit.v - 0.5).abs() <= 8.0 * f32::EPSILON
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_infinite_vertex_is_a_miss() {
+        for (i, intersect) in kernels::<Vec3>().into_iter().enumerate() {
+            for vertex in 0..3 {
+                for bad in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+                    for axis in 0..3 {
+                        let mut corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+                        corners[vertex][axis] = bad;
+                        let ray = Ray::new(Vec3::new(0.25, 0.25, 1.0), Vec3::NEG_Z);
+                        assert!(intersect(&ray, &corners.into()).is_none(), "{i}: {corners:?}");
+                    }
+                }
+            }
+        }
+    }
 }

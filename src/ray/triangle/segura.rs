@@ -107,10 +107,7 @@ impl<N: Number> Volumes<N> {
     /// exponents.
     #[inline(always)]
     fn is_trustworthy(&self) -> N::Mask {
-        self.sum.is_mid_range()
-            & self.d2.is_mid_range()
-            & (self.sum * self.d2).is_mid_range()
-            & self.along.is_mid_range()
+        self.sum.are_mid_range(self.d2) & self.along.are_mid_range(self.sum * self.d2)
     }
 
     /// Whether no two volumes have opposite signs.

@@ -107,7 +107,7 @@ impl Case {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{lattice_point, lattice_ray};
+    use super::super::{extreme_point, lattice_point, lattice_ray};
     use super::*;
 
     const INF: f64 = f64::INFINITY;
@@ -212,6 +212,21 @@ mod tests {
                 aabb_exit_in(&back, min, max, -0.75, -0.25),
                 aabb_enter_in(&ray, min, max, 0.25, 0.75)
             );
+        }
+    }
+
+    #[test]
+    fn the_fast_tier_holds_the_largest_numbers_it_admits() {
+        let mut rng = fastrand::Rng::with_seed(13);
+        for _ in 0..6_000 {
+            let mut extreme = || extreme_point(&mut rng, 63);
+            let ray = ray(extreme(), extreme()).with_range(-INF, INF);
+            let (a, b) = (extreme(), extreme());
+            let min = std::array::from_fn(|k| a[k].min(b[k]));
+            let max = std::array::from_fn(|k| a[k].max(b[k]));
+            let case = Case::new(&ray, min, max, Question::Touches).unwrap();
+            assert_eq!(case.bits(), 127);
+            assert_eq!(case.answer::<i128>(), case.answer::<BigInt>());
         }
     }
 }

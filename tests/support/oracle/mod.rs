@@ -135,6 +135,15 @@ fn lattice_point(rng: &mut fastrand::Rng, radius: i32) -> [f64; 3] {
     [0; 3].map(|_| f64::from(rng.i32(-radius..=radius)))
 }
 
+/// A point with coordinates of ±1 and of nearly ±2^bits, which need a grid of so many bits, mostly the latter.
+#[cfg(test)]
+fn extreme_point(rng: &mut fastrand::Rng, bits: i32) -> [f64; 3] {
+    let most = 2f64.powi(bits).next_down().floor();
+    let mut point = [0; 3].map(|_| if rng.bool() { most } else { -most });
+    point[rng.usize(..3)] = 1.0;
+    point
+}
+
 /// A ray with integer coordinates and a closed, half-open or unbounded range.
 #[cfg(test)]
 fn lattice_ray(rng: &mut fastrand::Rng, radius: i32) -> Ray {
@@ -148,4 +157,56 @@ fn lattice_ray(rng: &mut fastrand::Rng, radius: i32) -> Ray {
     };
     let (origin, direction) = (lattice_point(rng, radius), lattice_point(rng, radius));
     Ray { origin, direction, t_min, t_max }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::array::from_fn;
+
+    use super::*;
+
+    /// Where two shapes are the same set of points, so must be the verdicts, though their oracles share no formula.
+    #[test]
+    fn equal_sets_get_equal_verdicts() {
+        let mut rng = fastrand::Rng::with_seed(8);
+        for _ in 0..60_000 {
+            let radius = rng.i32(1..=4);
+            let ray = lattice_ray(&mut rng, radius);
+            let (a, b) = (lattice_point(&mut rng, radius), lattice_point(&mut rng, radius));
+            let (min, max): ([f64; 3], [f64; 3]) =
+                (from_fn(|k| a[k].min(b[k])), from_fn(|k| a[k].max(b[k])));
+
+            // A flat box is two triangles, which may be segments or points.
+            let flat = rng.usize(..3);
+            let top: [f64; 3] = from_fn(|k| if k == flat { min[k] } else { max[k] });
+            let corner = |axis: usize| from_fn(|k| if k == axis { top[k] } else { min[k] });
+            let (p, q) = (corner((flat + 1) % 3), corner((flat + 2) % 3));
+            let halves = [[min, p, top], [min, top, q]].map(|half| triangle(&ray, half).hits());
+            assert_eq!(halves.contains(&true), aabb(&ray, min, top), "{ray:?} {min:?} {top:?}");
+
+            // A ray that crosses the triangle's plane does so at one point of that plane.
+            let crosses = triangle_t_in(&ray, [min, p, q], ray.t_min, ray.t_max) == Some(true);
+            let normal: [f64; 3] = from_fn(|k| if k == flat { 1.0 } else { 0.0 });
+            let is_proper = p != min && q != min && ray.is_valid();
+            let at = plane(&ray, normal, min[flat]) == PlaneVerdict::At;
+            assert!(!is_proper || crosses == at, "{ray:?} {min:?} {p:?} {q:?}");
+
+            // A point is a box, a sphere and a triangle.
+            let is_hit = aabb(&ray, a, a);
+            assert_eq!(sphere(&ray, a, 0.0), is_hit);
+            assert_eq!(triangle(&ray, [a; 3]).hits(), is_hit);
+
+            // A segment is a ray and a triangle.
+            let (from, to) = (lattice_point(&mut rng, radius), lattice_point(&mut rng, radius));
+            let segment = Ray {
+                origin: from,
+                direction: from_fn(|k| to[k] - from[k]),
+                t_min: 0.0,
+                t_max: 1.0,
+            };
+            if from != to {
+                assert_eq!(triangle_aabb_sat([from, to, from], min, max), aabb(&segment, min, max));
+            }
+        }
+    }
 }

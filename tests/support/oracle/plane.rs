@@ -75,7 +75,7 @@ impl Case {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{lattice_point, lattice_ray};
+    use super::super::{extreme_point, lattice_point, lattice_ray};
     use super::*;
 
     const INF: f64 = f64::INFINITY;
@@ -140,6 +140,20 @@ mod tests {
                 plane(&scaled, normal.map(|x| x * 2f64.powi(-90)), offset * 2f64.powi(-20)),
                 verdict
             );
+        }
+    }
+
+    #[test]
+    fn the_fast_tier_holds_the_largest_numbers_it_admits() {
+        let mut rng = fastrand::Rng::with_seed(14);
+        for (points, directions, normals) in [(63, 60, 60), (57, 61, 62)] {
+            for _ in 0..3_000 {
+                let mut extreme = |bits| extreme_point(&mut rng, bits);
+                let ray = ray(extreme(points), extreme(directions)).with_range(-INF, INF);
+                let case = Case::new(&ray, extreme(normals), 0.0).unwrap();
+                assert_eq!(case.bits(), 127);
+                assert_eq!(case.verdict::<i128>(), case.verdict::<BigInt>());
+            }
         }
     }
 }

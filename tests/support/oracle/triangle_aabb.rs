@@ -241,4 +241,21 @@ mod tests {
             assert_eq!(overlaps([b, c, a].map(mirror), mirror(max), mirror(min)), expected);
         }
     }
+
+    #[test]
+    fn the_fast_tier_holds_the_largest_numbers_it_admits() {
+        let mut rng = fastrand::Rng::with_seed(10);
+        for _ in 0..3_000 {
+            let mut extreme =
+                || [0; 3].map(|_| (2f64.powi(40) - 1.0) * if rng.bool() { 1.0 } else { -1.0 });
+            let vertices = [extreme(), extreme(), extreme()];
+            let (a, b) = (extreme(), extreme());
+            let min = std::array::from_fn(|k| a[k].min(b[k]));
+            let max = std::array::from_fn(|k| a[k].max(b[k]));
+            let grid = grid(vertices, min, max);
+            assert!(fits_i128(3 * grid.bits + 6) && !fits_i128(3 * (grid.bits + 1) + 5));
+            let expected = overlaps(vertices, min, max);
+            assert_eq!(overlap_by_axes::<BigInt>(vertices, min, max, grid), expected);
+        }
+    }
 }
