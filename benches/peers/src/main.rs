@@ -1,0 +1,50 @@
+//! Times isect and its peers (obvhs, parry3d, the bvh crate) on the same queries, in the same
+//! process, and prints a table per question.
+//!
+//! Absolute times drift with the machine's clock and its other work. So the contenders take turns,
+//! in a new random order in each round, and what counts is the ratio of a contender's time to the
+//! reference's in the same round.
+
+#[path = "../../data/mod.rs"]
+mod data;
+mod peer;
+mod ray_box;
+mod ray_triangle;
+mod report;
+mod timing;
+mod triangle_box;
+
+use clap::Parser;
+
+/// Times isect and its peers on the same queries.
+#[derive(Parser)]
+struct Options {
+    /// A few rounds only, to see that it runs: the numbers mean little.
+    #[arg(long)]
+    quick: bool,
+    /// How often each contender runs over all pairs, per table.
+    #[arg(long, default_value_t = 301)]
+    rounds: usize,
+    /// Only contenders whose name contains this (and the reference).
+    #[arg(long, default_value = "")]
+    filter: String,
+    /// Only questions whose title contains this.
+    #[arg(long, default_value = "")]
+    question: String,
+}
+
+fn main() {
+    let options = Options::parse();
+    let rounds = if options.quick { 3 } else { options.rounds };
+    println!("{}", report::machine());
+    let questions = ray_triangle::questions()
+        .chain(ray_box::questions())
+        .chain(triangle_box::questions());
+    for mut question in questions.filter(|q| q.title.contains(&options.question)) {
+        question
+            .contenders
+            .retain(|c| c.is_reference || c.name.contains(&options.filter));
+        let results = timing::race(&question.contenders, rounds);
+        println!("{}", report::table(&question, &results));
+    }
+}

@@ -1,0 +1,98 @@
+//! Contenders, and the race between them.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use crate::data::{PAIRS, Pairs};
+
+/// What a table is about, and who takes part.
+pub struct Question {
+    /// The heading.
+    pub title: String,
+    /// What is compared, in a sentence or two.
+    pub note: &'static str,
+    /// One of them is the reference.
+    pub contenders: Vec<Contender>,
+}
+
+/// A kernel with its queries.
+pub struct Contender {
+    /// Library, function, type.
+    pub name: &'static str,
+    /// Whether the others are compared with this one.
+    pub is_reference: bool,
+    /// Asks all queries, and counts the hits.
+    pass: Box<dyn Fn() -> usize>,
+}
+
+impl Contender {
+    /// A contender that asks `query` about all `pairs`.
+    ///
+    /// Each query is behind a `black_box`, which takes its input by reference and its whole answer:
+    /// nothing is hoisted out of the loop, vectorised across it, or left out of the answer.
+    pub fn new<A: 'static, B: 'static, T>(
+        name: &'static str,
+        pairs: Pairs<A, B>,
+        query: impl Fn(&A, &B) -> T + 'static,
+        is_hit: impl Fn(&T) -> bool + 'static,
+    ) -> Self {
+        let pass = move || {
+            let mut hits = 0;
+            pairs.for_each(|a, b| {
+                let answer = black_box(query(black_box(a), black_box(b)));
+                hits += usize::from(is_hit(&answer));
+            });
+            hits
+        };
+        Self {
+            name,
+            is_reference: false,
+            pass: Box::new(pass),
+        }
+    }
+
+    /// The same contender, as the one with which the others are compared.
+    pub fn reference(mut self) -> Self {
+        self.is_reference = true;
+        self
+    }
+}
+
+/// How a contender did.
+pub struct Outcome {
+    /// How many queries it answered with a hit.
+    pub hits: usize,
+    /// Nanoseconds per query in each round.
+    pub times: Vec<f64>,
+    /// Its time over the reference's in each round.
+    pub ratios: Vec<f64>,
+}
+
+/// Lets the contenders run in turns; the outcomes are in their order.
+pub fn race(contenders: &[Contender], rounds: usize) -> Vec<Outcome> {
+    let mut random = fastrand::Rng::with_seed(2);
+    let mut order: Vec<usize> = (0..contenders.len()).collect();
+    // The first pass warms up, and is not timed.
+    let hits: Vec<usize> = contenders.iter().map(|c| (c.pass)()).collect();
+    let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
+    for _ in 0..rounds {
+        random.shuffle(&mut order);
+        for &i in &order {
+            let start = Instant::now();
+            black_box((contenders[i].pass)());
+            times[i].push(start.elapsed().as_secs_f64() * 1e9 / PAIRS as f64);
+        }
+    }
+    let reference = contenders
+        .iter()
+        .position(|c| c.is_reference)
+        .map_or_else(Vec::new, |i| times[i].clone());
+    hits.into_iter()
+        .zip(times)
+        .map(|(hits, times)| Outcome {
+            hits,
+            ratios: times.iter().zip(&reference).map(|(a, b)| a / b).collect(),
+            times,
+        })
+        .collect()
+}
