@@ -3,6 +3,7 @@
 //! A branch predictor learns the answers of a short loop and flatters kernels with early exits. So
 //! there are 32,768 pairs, and the order of hits and misses is shuffled. As in a traversal, each
 //! ray meets a few shapes in a row: streaming a new ray for each pair would measure the cache.
+#![allow(dead_code)] // each bench draws its own queries
 
 use isect::glam::{DVec3, Vec3};
 use isect::overlap::triangle_aabb::sat;
@@ -11,14 +12,13 @@ use isect::ray::triangle::moller_trumbore;
 use isect::{Aabb, Ray, Triangle};
 
 /// The number of pairs in a set of queries.
-pub const PAIRS: usize = 32_768;
+pub(crate) const PAIRS: usize = 32_768;
 
 /// The number of pairs with the same first part.
 const PER_FIRST: usize = 8;
 
 /// A set of queries: each of the first parts (rays, say) against some second parts (triangles).
-#[derive(Debug)]
-pub struct Pairs<A, B> {
+pub(crate) struct Pairs<A, B> {
     first: Vec<A>,
     /// Those of the first `first`, then those of the second, and so on.
     second: Vec<B>,
@@ -26,7 +26,11 @@ pub struct Pairs<A, B> {
 
 impl<A, B> Pairs<A, B> {
     /// The same queries in other types.
-    pub fn map<C, D>(&self, first: impl Fn(&A) -> C, second: impl Fn(&A, &B) -> D) -> Pairs<C, D> {
+    pub(crate) fn map<C, D>(
+        &self,
+        first: impl Fn(&A) -> C,
+        second: impl Fn(&A, &B) -> D,
+    ) -> Pairs<C, D> {
         let mut seconds = Vec::with_capacity(self.second.len());
         self.for_each(|a, b| seconds.push(second(a, b)));
         Pairs {
@@ -37,7 +41,7 @@ impl<A, B> Pairs<A, B> {
 
     /// Calls `visit` with each pair in turn.
     #[inline(always)]
-    pub fn for_each(&self, mut visit: impl FnMut(&A, &B)) {
+    pub(crate) fn for_each(&self, mut visit: impl FnMut(&A, &B)) {
         for (a, some) in self.first.iter().zip(self.second.chunks_exact(PER_FIRST)) {
             for b in some {
                 visit(a, b);
@@ -48,13 +52,13 @@ impl<A, B> Pairs<A, B> {
 
 /// Draws pairs, of which the fraction `rate` has the verdict `true`.
 fn draw<A, B>(
-    rate: f64,
+    rate: f32,
     mut first: impl FnMut(&mut Random) -> A,
     mut second: impl FnMut(&mut Random, &A, bool) -> B,
 ) -> Pairs<A, B> {
     let mut random = Random(fastrand::Rng::with_seed(1));
     let mut verdicts: Vec<bool> = (0..PAIRS)
-        .map(|i| (i as f64) < rate * PAIRS as f64)
+        .map(|i| (i as f32) < rate * PAIRS as f32)
         .collect();
     random.0.shuffle(&mut verdicts);
     let mut pairs = Pairs {
@@ -77,7 +81,7 @@ fn draw<A, B>(
 /// The triangle is placed so that the ray goes for a given point of its plane: one inside for a
 /// hit; for a miss one outside with weights within 1.5 of the centroid's, or, one in eight, a
 /// triangle behind the origin.
-pub fn ray_triangle(hit_rate: f64, size: f32) -> Pairs<Ray, Triangle> {
+pub(crate) fn ray_triangle(hit_rate: f32, size: f32) -> Pairs<Ray, Triangle> {
     draw(hit_rate, Random::ray, |random, ray, hit| {
         loop {
             let shape: Triangle = [(); 3].map(|()| random.point(0.5 * size)).into();
@@ -99,7 +103,7 @@ pub fn ray_triangle(hit_rate: f64, size: f32) -> Pairs<Ray, Triangle> {
 ///
 /// The box is placed so that the ray goes for a point in it for a hit, or for one in a box of
 /// three times the size for a miss, or, one miss in eight, it lies behind the origin.
-pub fn ray_box(hit_rate: f64) -> Pairs<Ray, Aabb> {
+pub(crate) fn ray_box(hit_rate: f32) -> Pairs<Ray, Aabb> {
     draw(hit_rate, Random::ray, |random, ray, hit| {
         loop {
             let half = random.half_extents();
@@ -120,9 +124,9 @@ pub fn ray_box(hit_rate: f64) -> Pairs<Ray, Aabb> {
 ///
 /// The triangle's cube is anywhere in a cube around the box which is so large that chance comes
 /// near to the wanted rate; then it is drawn again until the verdict is the wanted one.
-pub fn triangle_box(overlap_rate: f64) -> Pairs<Aabb, Triangle> {
+pub(crate) fn triangle_box(overlap_rate: f32) -> Pairs<Aabb, Triangle> {
     // About 1.2 is the volume of the centres with which a triangle overlaps.
-    let reach = 0.5 * (1.2 / overlap_rate).cbrt() as f32;
+    let reach = 0.5 * (1.2 / overlap_rate).cbrt();
     let aabb = |random: &mut Random| {
         let (center, half) = (random.point(1.0), random.half_extents());
         Aabb::new(center - half, center + half)
