@@ -468,6 +468,14 @@ pub trait Vector:
         unit.dot(unit).sqrt() / scale
     }
 
+    /// The vector times two powers of two, of which the second is at least 1: exact unless the result
+    /// over- or underflows, though their product may not be a float.
+    #[must_use]
+    #[inline]
+    fn times_powers(self, scale: Self::Scalar, large: Self::Scalar) -> Self {
+        if scale > Self::Scalar::ONE { self * scale * large } else { self * (scale * large) }
+    }
+
     /// Whether no component is infinite or NaN.
     #[must_use]
     fn is_finite(self) -> bool;

@@ -76,8 +76,7 @@ fn parallel_or_extreme<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<Plan
     let large = one.lit(TWO_TO_60);
     let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
     let plane = Plane { normal: plane.normal * scale, offset: plane.offset * scale };
-    // Two steps, as the product of both factors may not be a float.
-    let long_ray = Ray { direction: ray.direction * t_scale * large, ..*ray };
+    let long_ray = Ray { direction: ray.direction.times_powers(t_scale, large), ..*ray };
     let (numerator, denominator) = fraction(&long_ray, &plane);
     if denominator == V::Scalar::ZERO {
         let contained = numerator == V::Scalar::ZERO && ray.t_min <= ray.t_max;
@@ -120,7 +119,7 @@ mod tests {
             (1e-30, 1e-30),
             (1e30, 1e30),
             (1e-38, 1.0),
-            (1.0, 1e-40),
+            (1.0, 1e-37),
             (1e25, 1e-30),
             (1e-38, 1e-37),
         ] {

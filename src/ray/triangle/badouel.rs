@@ -69,7 +69,7 @@ impl<V: Vector> Prepared<V> {
         // Powers of two, so that products of edges neither over- nor underflow.
         let scale = edge1.abs().max(edge2.abs()).max_element().normalizer();
         let large = V::Scalar::ONE.lit(LARGE);
-        let (edge1, edge2) = (edge1 * scale * large, edge2 * scale * large);
+        let (edge1, edge2) = (edge1.times_powers(scale, large), edge2.times_powers(scale, large));
         let normal = edge1.cross(edge2);
         let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
         let [x, y, z] = [normal.x().abs(), normal.y().abs(), normal.z().abs()];

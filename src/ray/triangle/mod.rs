@@ -113,7 +113,9 @@ impl<V: Coordinates> Frame<V> {
             offset: ray.origin - triangle.v0,
         }
     }
+}
 
+impl<V: Vector> Frame<V> {
     /// The same problem with the direction, and the longest of the other vectors, scaled by powers of
     /// two to a length of which the products do not overflow, and those of small components hardly
     /// underflow; with the two factors, which cancel but in t.
@@ -121,13 +123,12 @@ impl<V: Coordinates> Frame<V> {
         let longest = self.edge1.abs().max(self.edge2.abs()).max(self.offset.abs()).max_element();
         let (scale, t_scale) =
             (longest.normalizer(), self.direction.abs().max_element().normalizer());
-        // Two steps, as the product of both factors may not be a float.
         let large = longest.large_length();
         let frame = Self {
-            direction: self.direction * t_scale * large,
-            edge1: self.edge1 * scale * large,
-            edge2: self.edge2 * scale * large,
-            offset: self.offset * scale * large,
+            direction: self.direction.times_powers(t_scale, large),
+            edge1: self.edge1.times_powers(scale, large),
+            edge2: self.edge2.times_powers(scale, large),
+            offset: self.offset.times_powers(scale, large),
         };
         (frame, t_scale, scale)
     }

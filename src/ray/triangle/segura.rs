@@ -153,7 +153,8 @@ fn extreme<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHi
     let scale = a0.max(a1.max(a2)).max_element().normalizer();
     let t_scale = ray.direction.abs().max_element().normalizer();
     let large = scale.large_length();
-    let volumes = Volumes::new(&corners.map(|a| a * scale * large), ray.direction * t_scale);
+    let volumes =
+        Volumes::new(&corners.map(|a| a.times_powers(scale, large)), ray.direction * t_scale);
     let t = (volumes.t() / large).times_ratio(t_scale, scale);
     let found = volumes.found(t, ray.t_min, ray.t_max);
     found.into_option().filter(|_| volumes.sum != V::Scalar::ZERO)
