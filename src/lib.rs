@@ -1,4 +1,70 @@
-//! Intersection kernels.
+//! Intersection kernels for renderers: a ray against a plane, sphere, box or triangle, and a triangle
+//! against a box, on [glam]'s vectors, in `f32` and `f64`.
+//!
+//! **Each kernel states what it promises, and an oracle in exact arithmetic holds it to that.**
+//!
+//! ```
+//! use isect::{Ray, Triangle, glam::Vec3};
+//!
+//! let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+//! let ray = Ray::new(Vec3::new(0.25, 0.25, 2.0), Vec3::NEG_Z);
+//! let hit = ray.intersect(&triangle).expect("it is aimed at the inside");
+//! assert_eq!((hit.t, hit.u, hit.v, hit.front), (2.0, 0.25, 0.25, true));
+//! assert_eq!(ray.at(hit.t), triangle.at(hit.u, hit.v));
+//! ```
+//!
+//! # Which kernel
+//!
+//! [`Ray::intersect`], [`Ray::hits`] and [`Triangle::overlaps`] take the kernel that is recommended for
+//! the shape. In a loop over many shapes call a kernel by its name, and prepare the ray once.
+//!
+//! | pair | kernel | grade | prepared | paper |
+//! |---|---|---|---|---|
+//! | ray, plane | [`ray::plane`], the default | fast | | |
+//! | ray, sphere | [`ray::sphere::robust`], the default | fast, errors ∝ distance | | Haines et al. 2019 |
+//! | | [`ray::sphere::geometric`] | fast, errors ∝ distance² | | Glassner 1989 |
+//! | | [`ray::sphere::algebraic`] | fast, errors ∝ distance² | | Glassner 1989 |
+//! | ray, box | [`ray::aabb::slab`], the default | fast | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
+//! | | [`ray::aabb::conservative`] | conservative | [`ray::aabb::BoxRay`] | after Ize 2013 |
+//! | ray, triangle | [`ray::triangle::watertight`], the default | watertight | [`ray::triangle::watertight::ShearedRay`] | Woop et al. 2013 |
+//! | | [`ray::triangle::moller_trumbore`] | fast | | Möller & Trumbore 1997 |
+//! | | [`ray::triangle::badouel`] | fast | [`ray::triangle::badouel::Prepared`] | Badouel 1990 |
+//! | | [`ray::triangle::segura`] | fast, without a division | | Segura & Feito 1998 |
+//! | triangle, box | [`overlap::triangle_aabb::sat`], the default | fast | | Akenine-Möller 2001 |
+//! | | [`overlap::triangle_aabb::clip`] | fast, gives the polygon | | Sutherland & Hodgman 1974 |
+//!
+//! # Grades
+//!
+//! * **Fast**: t, u and v are within a stated error bound of the exact ones; near an edge, within that
+//!   bound, the verdict may be wrong, and a ray may slip between two triangles.
+//! * **Watertight**: no ray slips between two triangles that share an edge or a vertex.
+//!   **Conservative**: no box that the ray touches is missed.
+//!
+//! # Conventions
+//!
+//! * All sets are closed: a ray along a face, through an edge or at a vertex hits. So is the range of
+//!   t: a ray that starts on a surface hits it at t = 0 (see [`Ray::after`]), and with `t_max` set to
+//!   the closest t so far a later shape wins a tie (compare with `<`, or use [`Ray::before`]).
+//! * Shapes have two sides. [`ray::triangle::TriangleHit::front`] tells which one; to cull, filter on it.
+//! * Directions have any length but zero, and t counts in units of it.
+//! * No tolerance is absolute: with all coordinates multiplied by a power of two every verdict is the
+//!   same, up to the ends of the range of exponents.
+//! * Bad input is a miss: a zero direction, an empty box, a NaN or infinite coordinate (but the bounds
+//!   of a box may be infinite), an empty range. Nothing panics, and no hit holds a NaN.
+//! * A triangle without area is missed by the ray kernels (the watertight one may still hit one that
+//!   is not flat as it sees it, so that it closes the gap between its neighbours); to the kernels of
+//!   [`overlap`] it is the segment or the point that it is.
+//!
+//! # Generic code
+//!
+//! Shapes and kernels are generic over [`Vector`]: `Vec3`, `Vec3A` or `DVec3`; `Vec3` is the default.
+//! `Vec3A` is the fastest. The numbers of a vector are its [`Scalar`].
+//!
+//! # Features
+//!
+//! * `std` (default): square roots from the standard library, and `alloc`.
+//! * `alloc`: [`Intersect`] for `Box` and `Arc`.
+//! * `libm`: square roots without the standard library.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
