@@ -40,10 +40,6 @@ fn time<V: Vector>(kernels: &mut Kernels<'_>, vector: &str, pairs: &Pairs<Ray<V>
         .time(&name("slab::hits"), &prepared, slab::hits)
         .time(&name("slab::intersect"), &prepared, slab::intersect)
         .time(&name("conservative::hits"), &prepared, conservative::hits)
-        .time(
-            &name("conservative::interval"),
-            &prepared,
-            conservative::interval,
-        )
+        .time(&name("conservative::interval"), &prepared, conservative::interval)
         .time(&name("Ray::intersect"), pairs, Ray::intersect::<Aabb<V>>);
 }

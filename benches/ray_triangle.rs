@@ -39,27 +39,13 @@ fn time<V: Vector>(kernels: &mut Kernels<'_>, vector: &str, pairs: &Pairs<Ray<V>
     let prepared = pairs.map(|ray| *ray, |_, triangle| badouel::Prepared::new(triangle));
     let sheared = pairs.map(ShearedRay::new, |_, triangle| *triangle);
     kernels
-        .time(
-            &name("moller_trumbore::intersect"),
-            pairs,
-            moller_trumbore::intersect,
-        )
+        .time(&name("moller_trumbore::intersect"), pairs, moller_trumbore::intersect)
         .time(&name("badouel::intersect"), pairs, badouel::intersect)
-        .time(
-            &name("badouel::Prepared::intersect"),
-            &prepared,
-            |ray, triangle| triangle.intersect(ray),
-        )
+        .time(&name("badouel::Prepared::intersect"), &prepared, |ray, triangle| {
+            triangle.intersect(ray)
+        })
         .time(&name("segura::intersect"), pairs, segura::intersect)
         .time(&name("segura::detects"), pairs, segura::detects)
-        .time(
-            &name("watertight::intersect"),
-            &sheared,
-            watertight::intersect,
-        )
-        .time(
-            &name("Ray::intersect"),
-            pairs,
-            Ray::intersect::<Triangle<V>>,
-        );
+        .time(&name("watertight::intersect"), &sheared, watertight::intersect)
+        .time(&name("Ray::intersect"), pairs, Ray::intersect::<Triangle<V>>);
 }

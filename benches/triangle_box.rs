@@ -36,13 +36,7 @@ where
 fn time<V: Vector>(kernels: &mut Kernels<'_>, vector: &str, pairs: &Pairs<Aabb<V>, Triangle<V>>) {
     let name = |kernel| format!("{kernel}, {vector}");
     kernels
-        .time(&name("sat::overlaps"), pairs, |aabb, triangle| {
-            sat::overlaps(triangle, aabb)
-        })
-        .time(&name("clip::overlaps"), pairs, |aabb, triangle| {
-            clip::overlaps(triangle, aabb)
-        })
-        .time(&name("clip::clip"), pairs, |aabb, triangle| {
-            clip::clip(triangle, aabb)
-        });
+        .time(&name("sat::overlaps"), pairs, |aabb, triangle| sat::overlaps(triangle, aabb))
+        .time(&name("clip::overlaps"), pairs, |aabb, triangle| clip::overlaps(triangle, aabb))
+        .time(&name("clip::clip"), pairs, |aabb, triangle| clip::clip(triangle, aabb));
 }

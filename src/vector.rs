@@ -119,6 +119,8 @@ pub trait Scalar:
     const EPSILON: Self;
     /// Positive infinity.
     const INFINITY: Self;
+    /// Not a number.
+    const NAN: Self;
     /// The largest finite number.
     const MAX: Self;
     /// The smallest positive normal number.
@@ -253,6 +255,7 @@ macro_rules! scalar {
             const ONE: Self = 1.0;
             const EPSILON: Self = $t::EPSILON;
             const INFINITY: Self = $t::INFINITY;
+            const NAN: Self = $t::NAN;
             const MAX: Self = $t::MAX;
             const MIN_POSITIVE: Self = $t::MIN_POSITIVE;
 
@@ -596,7 +599,7 @@ mod tests {
     #[test]
     fn min_and_max_drop_a_nan_in_the_first_operand_only() {
         fn check<T: Scalar>() {
-            let (one, nan) = (T::ONE, T::ZERO / T::ZERO);
+            let (one, nan) = (T::ONE, T::NAN);
             assert!(Number::min(nan, one) == one && Number::max(nan, one) == one);
             let (low, high) = (Number::min(one, nan), Number::max(one, nan));
             assert!(low.partial_cmp(&low).is_none() && high.partial_cmp(&high).is_none());
@@ -609,7 +612,7 @@ mod tests {
     fn folding_drops_components_that_are_nan() {
         fn check<V: Vector>() {
             let [zero, one] = [V::Scalar::ZERO, V::Scalar::ONE];
-            let nan = zero / zero;
+            let nan = V::Scalar::NAN;
             for v in [V::new(nan, one, zero), V::new(one, nan, zero), V::new(one, zero, nan)] {
                 assert_eq!((v.fold_min(one + one), v.fold_max(-one)), (zero, one));
                 let (low, high) = (v.fold_min(nan), v.fold_max(nan));

@@ -128,7 +128,7 @@ fn spheres_and_planes() {
             let plane = Plane { normal: vector::<V>(p), offset: scalar(x) };
             match plane::intersect(&ray, &plane) {
                 Some(PlaneHit::At(t)) => {
-                    assert!(good && in_range(t.into(), &exact_ray), "{exact_ray:?} {p:?} {x}")
+                    assert!(good && in_range(t.into(), &exact_ray), "{exact_ray:?} {p:?} {x}");
                 }
                 Some(PlaneHit::Contained) => assert!(good),
                 None => {}

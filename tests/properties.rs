@@ -209,13 +209,16 @@ proptest! {
     fn a_sphere_lies_in_its_box(center in point(), radius in 0.0..4.0_f32) {
         let bounds = Aabb::<DVec3>::from(Sphere::<Vec3>::new(vector(center), radius).aabb());
         let radius = f64::from(radius);
-        for i in 0..3 {
-            let (min, max) = (array(bounds.min)[i], array(bounds.max)[i]);
+        let (min, max) = (array(bounds.min), array(bounds.max));
+        for ((min, max), center) in min.into_iter().zip(max).zip(center) {
             // Sums of two f32 whose exponents differ by less than 29 are exact in f64.
-            prop_assert!(min <= center[i] - radius && center[i] + radius <= max);
+            prop_assert!(min <= center - radius && center + radius <= max);
             // And no further than the next float.
-            let next = |x: f64| f64::from((x as f32).abs().next_up() - (x as f32).abs());
-            prop_assert!(center[i] - radius - min <= next(min) && max - center[i] - radius <= next(max));
+            let spacing = |x: f64| {
+                let x = scalar::<f32>(x).abs();
+                f64::from(x.next_up() - x)
+            };
+            prop_assert!(center - radius - min <= spacing(min) && max - center - radius <= spacing(max));
         }
     }
 

@@ -7,6 +7,7 @@
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::{Ray, Triangle, Vector};
 
+use crate::support::generators::single;
 use crate::support::kernels::{TriangleKernel, triangle_kernels};
 use crate::support::meshes::{Mesh, icosphere, lattice_cube, parse_obj};
 use crate::support::{array, for_every_vector, name, oracle, scalar, vector};
@@ -78,7 +79,7 @@ fn points_inside(mesh: &Mesh, count: usize) -> Vec<[f64; 3]> {
         let mut random = |scale: fn(f64, f64, f64) -> f64| {
             std::array::from_fn(|axis| {
                 let (low, high) = (bound(f64::min, axis), bound(f64::max, axis));
-                f64::from(scale(low, high, rng.f64()) as f32)
+                single(scale(low, high, rng.f64()))
             })
         };
         let origin: [f64; 3] = random(|low, high, x| low + (high - low) * x);
@@ -102,8 +103,7 @@ fn meshes() -> Vec<(&'static str, Mesh, Vec<[f64; 3]>)> {
         .flat_map(|x| (1..8).flat_map(move |y| (1..8).map(move |z| [x, y, z].map(f64::from))))
         .collect();
     let mut rng = fastrand::Rng::with_seed(SEED);
-    let ball: Vec<[f64; 3]> =
-        (0..64).map(|_| [(); 3].map(|()| f64::from((rng.f64() - 0.5) as f32))).collect();
+    let ball: Vec<[f64; 3]> = (0..64).map(|_| [(); 3].map(|()| single(rng.f64() - 0.5))).collect();
     let inside = points_inside(&bunny, 64);
     vec![
         ("icosphere", icosphere(4), ball),
@@ -168,7 +168,7 @@ fn the_aim_is_good_enough_to_see_leaks() {
         let target = Target::<V>::new(
             "icosphere",
             &icosphere(4),
-            &[[0.1, 0.2, 0.3], [-0.3, 0.1, 0.2]].map(|p: [f64; 3]| p.map(|x| f64::from(x as f32))),
+            &[[0.1, 0.2, 0.3], [-0.3, 0.1, 0.2]].map(|p: [f64; 3]| p.map(single)),
         );
         let [kernel, ..] = triangle_kernels::<V>();
         let mut rng = fastrand::Rng::with_seed(SEED);

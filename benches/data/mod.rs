@@ -33,10 +33,7 @@ impl<A, B> Pairs<A, B> {
     ) -> Pairs<C, D> {
         let mut seconds = Vec::with_capacity(self.second.len());
         self.for_each(|a, b| seconds.push(second(a, b)));
-        Pairs {
-            first: self.first.iter().map(first).collect(),
-            second: seconds,
-        }
+        Pairs { first: self.first.iter().map(first).collect(), second: seconds }
     }
 
     /// Calls `visit` with each pair in turn.
@@ -57,19 +54,12 @@ fn draw<A, B>(
     mut second: impl FnMut(&mut Random, &A, bool) -> B,
 ) -> Pairs<A, B> {
     let mut random = Random(fastrand::Rng::with_seed(1));
-    let mut verdicts: Vec<bool> = (0..PAIRS)
-        .map(|i| (i as f32) < rate * PAIRS as f32)
-        .collect();
+    let mut verdicts: Vec<bool> = (0..PAIRS).map(|i| (i as f32) < rate * PAIRS as f32).collect();
     random.0.shuffle(&mut verdicts);
-    let mut pairs = Pairs {
-        first: Vec::new(),
-        second: Vec::new(),
-    };
+    let mut pairs = Pairs { first: Vec::new(), second: Vec::new() };
     for verdicts in verdicts.chunks(PER_FIRST) {
         let a = first(&mut random);
-        pairs
-            .second
-            .extend(verdicts.iter().map(|&hit| second(&mut random, &a, hit)));
+        pairs.second.extend(verdicts.iter().map(|&hit| second(&mut random, &a, hit)));
         pairs.first.push(a);
     }
     pairs

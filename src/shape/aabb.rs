@@ -247,7 +247,7 @@ impl Face {
     #[inline]
     #[must_use]
     pub const fn sign(self) -> i8 {
-        if self as u8 % 2 == 0 { -1 } else { 1 }
+        if self as u8 & 1 == 0 { -1 } else { 1 }
     }
 
     /// The outward unit normal.

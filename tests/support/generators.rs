@@ -11,7 +11,7 @@ type Point = [f64; 3];
 
 /// The nearest single-precision number.
 #[allow(clippy::cast_possible_truncation)]
-fn single(x: f64) -> f64 {
+pub fn single(x: f64) -> f64 {
     f64::from((x as f32).clamp(f32::MIN, f32::MAX))
 }
 

@@ -9,10 +9,13 @@ use isect::{Aabb, Ray, Sphere, Triangle, Vector};
 
 use super::bounds::{self, BoundOf};
 
+/// A kernel's full hit, or a miss.
+pub type Intersect<V, Shape, Hit> = fn(&Ray<V>, &Shape) -> Option<Hit>;
+
 /// A ray/triangle kernel.
 pub struct TriangleKernel<V: Vector> {
     pub name: &'static str,
-    pub intersect: fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<V::Scalar>>,
+    pub intersect: Intersect<V, Triangle<V>, TriangleHit<V::Scalar>>,
     /// The error bound that its documentation states.
     pub bound: BoundOf,
 }
@@ -37,7 +40,7 @@ pub fn triangle_kernels<V: Vector>() -> [TriangleKernel<V>; 4] {
 /// A ray/sphere kernel.
 pub struct SphereKernel<V: Vector> {
     pub name: &'static str,
-    pub intersect: fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<V::Scalar>>,
+    pub intersect: Intersect<V, Sphere<V>, SphereHit<V::Scalar>>,
     /// By how much, at the most, the radius of the sphere that it has hit may be wrong, given the unit roundoff, the
     /// distance to the centre and the radius: as (squared radius, radius).
     pub error: fn(unit: f64, distance: f64, radius: f64) -> (f64, f64),

@@ -125,7 +125,7 @@ impl<V: Vector> BoxRay<V> {
         let stepped = |outward| inverse.map(|x| step(step(step(x, outward), outward), outward));
         let valid = ray.is_valid();
         // Of a ray that hits nothing, a NaN that no comparison lets through.
-        let t_min = if valid { ray.t_min } else { zero / zero };
+        let t_min = if valid { ray.t_min } else { V::Scalar::NAN };
         // Up to an eighth of the largest float's ulp, adding the origin to it does not overflow.
         let far_away = V::Scalar::MAX * V::Scalar::EPSILON * zero.lit(0.125);
         let overflow = |axis: usize| {

@@ -127,7 +127,9 @@ mod tests {
     use super::*;
     use glam::{DVec3, Vec3, Vec3A};
 
-    fn kernels<V: Vector>() -> [fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<V::Scalar>>; 3] {
+    type Kernel<V> = fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<<V as Coordinates>::Scalar>>;
+
+    fn kernels<V: Vector>() -> [Kernel<V>; 3] {
         [algebraic::intersect, geometric::intersect, robust::intersect]
     }
 

@@ -35,7 +35,7 @@ impl<V: Vector> ShearedRay<V> {
     #[inline]
     #[must_use]
     pub fn new(ray: &Ray<V>) -> Self {
-        let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
+        let one = V::Scalar::ONE;
         let d = ray.direction;
         let [x, y, z] = [d.x().abs(), d.y().abs(), d.z().abs()];
         let (axis, [dx, dy, dz]) = if x >= y && x >= z {
@@ -53,7 +53,7 @@ impl<V: Vector> ShearedRay<V> {
             inverse: one / (dz * t_scale),
             t_scale,
             // A NaN that no comparison lets through.
-            t_min: if ray.is_valid() { ray.t_min } else { zero / zero },
+            t_min: if ray.is_valid() { ray.t_min } else { V::Scalar::NAN },
             t_max: ray.t_max,
         }
     }

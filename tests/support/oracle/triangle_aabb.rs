@@ -138,7 +138,7 @@ fn clip<I: Integer>(polygon: &[Corner<I>], inside: Vector<I>) -> Vec<Corner<I>> 
         let cut = || intersection(&corner.line, &inside);
         match (dot(&corner.weights, &inside).signum(), dot(&next.weights, &inside).signum()) {
             (1, -1) => {
-                clipped.extend([corner.clone(), Corner { weights: cut(), line: inside.clone() }])
+                clipped.extend([corner.clone(), Corner { weights: cut(), line: inside.clone() }]);
             }
             (0, -1) => clipped.push(Corner { line: inside.clone(), ..corner.clone() }),
             (0 | 1, _) => clipped.push(corner.clone()),

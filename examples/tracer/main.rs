@@ -1,0 +1,241 @@
+//! A small reference tracer in the manner of Whitted (1980), on isect's kernels.
+//!
+//! This file is the command line and the order of events; `scene` says what there is to see,
+//! `surface` finds what a ray hits, `shade` what it looks like, `render` makes the picture.
+//!
+//! ```text
+//! cargo run --release --example tracer -- --help
+//! ```
+
+mod accelerator;
+mod bvh2;
+mod camera;
+mod failure;
+mod kernel;
+mod mesh;
+mod optics;
+mod output;
+mod render;
+mod scene;
+mod shade;
+mod surface;
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use isect::Triangle;
+use isect::glam::Vec3A;
+
+use accelerator::{Accelerator, NaiveLoop};
+use bvh2::Bvh2;
+use camera::Camera;
+use kernel::{Badouel, MollerTrumbore, Segura, TriangleKernel, Watertight};
+use mesh::Obj;
+use output::Output;
+use render::{Settings, render};
+use scene::{Scene, SceneName};
+use shade::{RayCounts, Tracer};
+
+/// The largest picture: 64 Mi pixels, 192 MiB in memory.
+const MAX_PIXELS: u32 = 1 << 26;
+
+const EXAMPLES: &str = "\
+Examples:
+  tracer
+  tracer --scene spheres --size 1920x1080 --samples 16
+  tracer --scene mesh --mesh teapot.obj --output teapot.png
+  tracer --size 96x54 --samples 1 --accel none --triangle moller-trumbore";
+
+/// Renders a scene of a mesh, spheres, boxes and planes, and tells how fast.
+#[derive(Debug, Parser)]
+#[command(name = "tracer", after_help = EXAMPLES)]
+struct Arguments {
+    /// What to render
+    #[arg(long, value_enum, default_value = "showcase")]
+    scene: SceneName,
+    /// The mesh of the scene, in place of the bunny
+    #[arg(long, value_name = "FILE.obj")]
+    mesh: Option<PathBuf>,
+    /// Width and height of the picture, at most 64 Mi pixels
+    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = parse_size)]
+    size: [u32; 2],
+    /// Samples per pixel on a regular grid: 1, 4, 9, … 256
+    #[arg(long, value_name = "N", default_value = "4", value_parser = parse_samples)]
+    samples: SamplesPerEdge,
+    /// How many times a ray is reflected or refracted at most, 0 to 64
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=64))]
+    depth: u32,
+    /// The ray/triangle kernel
+    #[arg(long, value_name = "KERNEL", value_enum, default_value = "watertight")]
+    triangle: KernelName,
+    /// What finds the triangles that a ray may hit
+    #[arg(long, value_enum, default_value = "bvh2")]
+    accel: AcceleratorName,
+    /// Threads, up to 1024; 0 for one per core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
+    threads: u16,
+    /// Where to write the picture, as PNG
+    #[arg(long, value_name = "FILE.png", default_value = "tracer.png")]
+    output: PathBuf,
+}
+
+/// The kernels to choose from.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum KernelName {
+    /// Woop, Benthin, Wald 2013: no ray slips through an edge
+    Watertight,
+    /// Möller, Trumbore 1997
+    MollerTrumbore,
+    /// Badouel 1990, prepared per triangle
+    Badouel,
+    /// Segura, Feito 1998: shadow rays without a division
+    Segura,
+}
+
+/// The accelerators to choose from.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum AcceleratorName {
+    /// Every ray against every triangle
+    None,
+    /// A binary bounding volume hierarchy
+    Bvh2,
+}
+
+/// The square root of the number of samples.
+#[derive(Clone, Copy, Debug)]
+struct SamplesPerEdge(u16);
+
+/// Reads `960x540`.
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let size = text.split_once(['x', 'X']).and_then(|(width, height)| {
+        let [width, height] = [width.parse::<u32>().ok()?, height.parse::<u32>().ok()?];
+        Some([width, height])
+    });
+    let [width, height] = size.ok_or("not of the form 960x540")?;
+    if width == 0 || height == 0 {
+        return Err("a picture has at least one pixel".into());
+    }
+    match width.checked_mul(height) {
+        Some(pixels) if pixels <= MAX_PIXELS => Ok([width, height]),
+        _ => Err(format!("more than {MAX_PIXELS} pixels")),
+    }
+}
+
+/// Reads a square number.
+fn parse_samples(text: &str) -> Result<SamplesPerEdge, String> {
+    let samples: u16 = text.parse().map_err(|_| "not a number from 1 to 256")?;
+    (1..=16)
+        .find(|edge| edge * edge == samples)
+        .map(SamplesPerEdge)
+        .ok_or_else(|| "not a square number from 1 to 256".into())
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    if arguments.mesh.is_some() && !arguments.scene.has_mesh() {
+        let message = "there is no mesh in this scene, so '--mesh' has no place";
+        Arguments::command().error(ErrorKind::ArgumentConflict, message).exit();
+    }
+    match run(&arguments) {
+        Ok(report) => {
+            // A reader who has gone does not make the picture worse.
+            let _ = std::io::stdout().write_all(report.as_bytes());
+            ExitCode::SUCCESS
+        }
+        Err(reason) => {
+            eprintln!("error: {reason}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Renders and writes the picture; returns what to say about it.
+fn run(arguments: &Arguments) -> Result<String, Box<dyn std::error::Error>> {
+    let obj = match &arguments.mesh {
+        Some(file) => Obj::read(file)?,
+        None => Obj::bunny(),
+    };
+    let output = Output::new(&arguments.output)?;
+    let scene = arguments.scene.build(obj);
+    let triangles = scene.mesh.triangles();
+
+    let start = Instant::now();
+    let accelerator = accelerator(arguments, &scene, &triangles);
+    let build_time = start.elapsed();
+
+    let [width, height] = arguments.size;
+    let settings = Settings { width, height, samples_per_edge: arguments.samples.0 };
+    let camera = Camera::new(&scene.view, width, height);
+    let tracer = Tracer::new(&scene, &*accelerator, arguments.depth);
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.into()).build()?;
+    // It draws on a terminal, and nowhere else.
+    let bar = ProgressBar::new(settings.tiles()).with_style(
+        ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left")
+            .expect("the template is well formed"),
+    );
+    let start = Instant::now();
+    let (picture, counts) = threads.install(|| render(&tracer, &camera, &settings, || bar.inc(1)));
+    let render_time = start.elapsed();
+    bar.finish_and_clear();
+
+    output.write(&picture)?;
+    Ok(report(arguments, triangles.len(), build_time, render_time, &counts))
+}
+
+/// The chosen accelerator with the chosen kernel compiled into it.
+fn accelerator(
+    arguments: &Arguments,
+    scene: &Scene,
+    triangles: &[Triangle<Vec3A>],
+) -> Box<dyn Accelerator> {
+    fn build<K: TriangleKernel + 'static>(
+        name: AcceleratorName,
+        scene: &Scene,
+        triangles: &[Triangle<Vec3A>],
+    ) -> Box<dyn Accelerator> {
+        match name {
+            AcceleratorName::None => Box::new(NaiveLoop::<K>::new(triangles)),
+            // Rays come from as far as the floor can be made out.
+            AcceleratorName::Bvh2 => Box::new(Bvh2::<K>::new(triangles, 16.0 * scene.extent())),
+        }
+    }
+    let build = match arguments.triangle {
+        KernelName::Watertight => build::<Watertight>,
+        KernelName::MollerTrumbore => build::<MollerTrumbore>,
+        KernelName::Badouel => build::<Badouel>,
+        KernelName::Segura => build::<Segura>,
+    };
+    build(arguments.accel, scene, triangles)
+}
+
+/// The table at the end.
+fn report(
+    arguments: &Arguments,
+    triangles: usize,
+    build_time: Duration,
+    render_time: Duration,
+    counts: &RayCounts,
+) -> String {
+    let rate = counts.total() as f64 / render_time.as_secs_f64() / 1e6;
+    let mut table = String::new();
+    let mut row = |name: &str, value: String| {
+        writeln!(table, "{name:<18}{value:>14}").expect("a string takes any text");
+    };
+    row("triangles", triangles.to_string());
+    row("build", format!("{:.3} s", build_time.as_secs_f64()));
+    row("render", format!("{:.3} s", render_time.as_secs_f64()));
+    row("primary rays", counts.primary.to_string());
+    row("shadow rays", counts.shadow.to_string());
+    row("reflection rays", counts.reflection.to_string());
+    row("refraction rays", counts.refraction.to_string());
+    row("all rays", counts.total().to_string());
+    row("Mrays/s", format!("{rate:.2}"));
+    writeln!(table, "{}", arguments.output.display()).expect("a string takes any text");
+    table
+}

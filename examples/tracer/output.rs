@@ -1,0 +1,109 @@
+//! The picture file: whole, or not there.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+
+use crate::failure::Failure;
+use crate::render::Picture;
+
+/// A file that can be written, as far as one can tell beforehand.
+#[derive(Debug)]
+pub(crate) struct Output {
+    /// As the user named it.
+    file: PathBuf,
+    /// What to replace: the file, or what it is a link to.
+    target: PathBuf,
+}
+
+impl Output {
+    /// Makes sure that `file` can be written before hours are spent on its contents.
+    pub(crate) fn new(file: &Path) -> Result<Self, Failure> {
+        let blame = |error: io::Error| Failure::new(file, error);
+        let mut target = file.to_owned();
+        if let Ok(existing) = fs::metadata(file) {
+            if !existing.is_file() {
+                return Err(Failure::new(file, "not a regular file"));
+            }
+            if existing.permissions().readonly() {
+                return Err(Failure::new(file, "read-only"));
+            }
+            target = fs::canonicalize(file).map_err(blame)?;
+        }
+        if target.file_name().is_none() {
+            return Err(Failure::new(file, "not the name of a file"));
+        }
+        let output = Self { file: file.to_owned(), target };
+        Temporary::create(&output.target).map_err(blame)?;
+        Ok(output)
+    }
+
+    /// Writes the picture beside the file, then puts it in its place.
+    pub(crate) fn write(&self, picture: &Picture) -> Result<(), Failure> {
+        self.try_write(picture).map_err(|error| Failure::new(&self.file, error))
+    }
+
+    fn try_write(&self, picture: &Picture) -> io::Result<()> {
+        let temporary = Temporary::create(&self.target)?;
+        let mut writer = BufWriter::new(&temporary.file);
+        PngEncoder::new(&mut writer)
+            .write_image(
+                picture.pixels.as_flattened(),
+                picture.width,
+                picture.height,
+                ExtendedColorType::Rgb8,
+            )
+            .map_err(io::Error::other)?;
+        writer.flush()?;
+        drop(writer);
+        temporary.file.sync_all()?;
+        fs::rename(&temporary.path, &self.target)
+    }
+}
+
+/// A file beside another one, removed if it has not been renamed when it goes out of scope.
+struct Temporary {
+    path: PathBuf,
+    file: File,
+}
+
+impl Temporary {
+    fn create(beside: &Path) -> io::Result<Self> {
+        let mut name = beside.file_name().unwrap_or_default().to_owned();
+        name.push(format!(".{}.tmp", std::process::id()));
+        let path = beside.with_file_name(name);
+        let file = File::create_new(&path)?;
+        Ok(Self { path, file })
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        // After the renaming there is nothing to remove; and there is no one to tell of a failure.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_but_the_picture_is_left_behind() {
+        let folder = std::env::temp_dir().join(format!("isect-output-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("picture.png");
+        let output = Output::new(&file).unwrap();
+        assert!(!file.exists());
+        let picture = Picture { width: 2, height: 1, pixels: vec![[0, 128, 255], [1, 2, 3]] };
+        output.write(&picture).unwrap();
+        let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().path()).collect();
+        assert_eq!(names, [file.as_path()]);
+        let read = image::open(&file).unwrap().into_rgb8();
+        assert_eq!(read.as_raw(), picture.pixels.as_flattened());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

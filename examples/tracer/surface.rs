@@ -1,0 +1,120 @@
+//! The point that a ray sees, and whether a point sees a light.
+
+use isect::Ray;
+use isect::glam::Vec3A;
+
+use crate::accelerator::{Accelerator, MeshHit};
+use crate::mesh::interpolated;
+use crate::scene::{Material, Scene, ShapeHit};
+
+/// The share of the light that gets through a transparent surface on its straight way to a shadow
+/// ray's start: a stand-in for the light that refraction would bring there.
+const THROUGH_TRANSPARENT: f32 = 0.75;
+
+/// A point of a surface as the ray that found it sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface<'a> {
+    /// The point itself.
+    pub(crate) point: Vec3A,
+    /// The normal to shade with, of length 1, on the ray's side.
+    pub(crate) normal: Vec3A,
+    /// The normal of the surface as it is, of length 1, on the ray's side.
+    pub(crate) geometric_normal: Vec3A,
+    /// Where shadow rays start: the point, or above it where a flat triangle stands for a round
+    /// surface.
+    pub(crate) shadow_point: Vec3A,
+    /// Whether the ray comes from inside.
+    pub(crate) leaving: bool,
+    /// What the surface is made of.
+    pub(crate) material: &'a Material,
+}
+
+impl<'a> Surface<'a> {
+    /// The closest surface that the ray meets in its range.
+    pub(crate) fn closest(
+        scene: &'a Scene,
+        accelerator: &dyn Accelerator,
+        ray: &Ray<Vec3A>,
+    ) -> Option<Self> {
+        let mut ray = *ray;
+        let mut closest = None;
+        for (shape, material) in &scene.shapes {
+            if let Some(hit) = shape.intersect(&ray) {
+                closest = Some((hit, material));
+                ray = ray.before(hit.t);
+            }
+        }
+        if let Some(hit) = accelerator.closest(&ray) {
+            return Some(Self::of_mesh(scene, &ray, &hit));
+        }
+        let (hit, material) = closest?;
+        Some(Self::of_shape(&ray, &hit, material))
+    }
+
+    fn of_shape(ray: &Ray<Vec3A>, hit: &ShapeHit, material: &'a Material) -> Self {
+        let point = ray.at(hit.t);
+        let normal = if hit.leaving { -hit.normal } else { hit.normal };
+        Self {
+            point,
+            normal,
+            geometric_normal: normal,
+            shadow_point: point,
+            leaving: hit.leaving,
+            material,
+        }
+    }
+
+    fn of_mesh(scene: &'a Scene, ray: &Ray<Vec3A>, &MeshHit { triangle, hit }: &MeshHit) -> Self {
+        let corners = scene.mesh.triangle(triangle);
+        let towards_ray = if hit.front { 1.0 } else { -1.0 };
+        let geometric_normal = corners.normal().normalize_or_zero() * towards_ray;
+        let normals = scene.mesh.normals(triangle).map(|n| n * towards_ray);
+        let point = corners.at(hit.u, hit.v);
+
+        let mut normal = interpolated(&hit, normals);
+        let mut shadow_point = point;
+        if normal.dot(ray.direction) < 0.0 && normal.dot(geometric_normal) > 0.0 {
+            // J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4: the
+            // triangle's point, lifted to the planes that the vertex normals span, blended. Without
+            // it, the triangle shows in the shadow's edge, as its own neighbours shade it.
+            let [a, b, c] = [corners.v0, corners.v1, corners.v2];
+            let lift =
+                |corner: Vec3A, normal: Vec3A| normal * (corner - point).dot(normal).max(0.0);
+            shadow_point +=
+                hit.interpolate(lift(a, normals[0]), lift(b, normals[1]), lift(c, normals[2]));
+        } else {
+            // On a silhouette the interpolated normal may look away from the ray.
+            normal = geometric_normal;
+        }
+        Self {
+            point,
+            normal,
+            geometric_normal,
+            shadow_point,
+            leaving: !hit.front,
+            material: &scene.mesh_material,
+        }
+    }
+}
+
+/// The share of a light that reaches the other end of a shadow ray: none if anything opaque is hit,
+/// whatever is found first.
+pub(crate) fn transmittance(
+    scene: &Scene,
+    accelerator: &dyn Accelerator,
+    shadow: &Ray<Vec3A>,
+) -> f32 {
+    let mut share = 1.0;
+    for (shape, material) in &scene.shapes {
+        if shape.intersect(shadow).is_some() {
+            if material.transparent.is_none() {
+                return 0.0;
+            }
+            share *= THROUGH_TRANSPARENT;
+        }
+    }
+    if accelerator.occluded(shadow) {
+        return 0.0;
+    }
+    share
+}
