@@ -97,11 +97,6 @@ fn check_integral<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, answers: &Ans
     }
 
     let normal = triangle.normal();
-    if normal == V::ZERO {
-        for (kernel, hit) in KERNELS.iter().zip(&answers.0) {
-            assert!(hit.is_none(), "{kernel}: a triangle without area was hit");
-        }
-    }
     let slope = normal.dot(ray.direction);
     if slope == V::Scalar::ZERO {
         // Seen edge on, it has no side; and a computed shear may tilt it.
