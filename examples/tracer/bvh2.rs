@@ -29,7 +29,7 @@ impl<K: TriangleKernel> Bvh2<K> {
     ///
     /// Conservative boxes alone do not keep a mesh tight. A triangle kernel decides for vertices
     /// that are off by its rounding errors, so of two triangles that share an edge it may see the
-    /// ray in the one whose box the ray passes by. The boxes are wider by those errors: 4u times
+    /// ray in the one whose box the ray passes by. The boxes are wider by those errors: 6u times
     /// the distance for the edges of the watertight kernel, 9u for its t, u = EPSILON/2.
     pub(crate) fn new(triangles: &[Triangle<Vec3A>], reach: f32) -> Self {
         let margin = 5.0 * f32::EPSILON * reach;

@@ -87,11 +87,15 @@ impl<V: Vector> ShearedRay<V> {
 /// (the same floats in both): the ray hits at least one of the triangles around it. This holds
 /// where no difference of coordinates overflows and the range's ends are away from the surface. The
 /// verdict near an edge is not always that of exact arithmetic: it is the exact one for vertices
-/// moved across the ray by at most 4u times their distance from the origin (the largest component),
-/// u = EPSILON/2. So are u and v, with 6u of rounding added, and t, with 9u of the largest |t| of the
+/// moved across the ray by at most 6u times the largest component of their distance from the origin,
+/// u = EPSILON/2. So are u and v, with 3u of rounding added, and t, with 9u of the largest |t| of the
 /// three vertices.
 ///
-/// A triangle without area as seen along the ray, a zero direction, a NaN or infinite field: a miss.
+/// A hierarchy of tight boxes around the triangles may lose what the moved vertices gain: inflate the
+/// boxes by 10u times the greatest distance from which rays come.
+///
+/// A triangle without area as seen along the ray, after rounding, a zero direction, a NaN or infinite
+/// field: a miss.
 ///
 /// ```
 /// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::watertight::{self, ShearedRay}};
