@@ -123,7 +123,9 @@ impl<V: Vector> BoxRay<V> {
             }
         };
         let stepped = |outward| inverse.map(|x| step(step(step(x, outward), outward), outward));
-        let valid = ray.is_valid();
+        // A range that lies at infinity holds no t.
+        let reaches = ray.t_min < V::Scalar::INFINITY && -V::Scalar::INFINITY < t_max;
+        let valid = ray.is_valid() && reaches;
         // Of a ray that hits nothing, a NaN that no comparison lets through.
         let t_min = if valid { ray.t_min } else { V::Scalar::NAN };
         // Up to an eighth of the largest float's ulp, adding the origin to it does not overflow.

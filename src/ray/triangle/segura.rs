@@ -34,12 +34,9 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 pub fn detects<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
     let volumes = Volumes::new(&corners(ray, triangle), ray.direction);
     if !volumes.is_trustworthy() {
-        return extreme(ray, triangle).is_some();
+        return Extreme::new(ray, triangle).is_some_and(|extreme| extreme.detects(ray));
     }
-    let (numerator, denominator) = volumes.t_fraction();
-    volumes.line_passes_inside()
-        & (ray.t_min * denominator).le(numerator)
-        & numerator.le(ray.t_max * denominator)
+    volumes.detect(ray.t_min, ray.t_max)
 }
 
 /// Where the ray meets the triangle, in the closed range of the ray: [`detects`], then the weights
@@ -67,7 +64,7 @@ pub fn intersect<V: Vector>(
 ) -> Option<TriangleHit<V::Scalar>> {
     let volumes = Volumes::new(&corners(ray, triangle), ray.direction);
     if !volumes.is_trustworthy() {
-        return extreme(ray, triangle);
+        return Extreme::new(ray, triangle)?.intersect(ray);
     }
     volumes.found(volumes.t(), ray.t_min, ray.t_max).into_option()
 }
@@ -120,11 +117,14 @@ impl<N: Number> Volumes<N> {
         one_way | other_way
     }
 
-    /// t as a fraction with a positive denominator.
+    /// Whether the line passes inside, at a t in the range: t is compared as a fraction.
     #[inline(always)]
-    fn t_fraction(&self) -> (N, N) {
+    fn detect(&self, t_min: N, t_max: N) -> N::Mask {
         let numerator = N::select(self.sum.lt(self.sum.lit(0.0)), -self.along, self.along);
-        (numerator, self.d2 * self.sum.abs())
+        let denominator = self.d2 * self.sum.abs();
+        self.line_passes_inside()
+            & (t_min * denominator).le(numerator)
+            & numerator.le(t_max * denominator)
     }
 
     #[inline(always)]
@@ -141,21 +141,40 @@ impl<N: Number> Volumes<N> {
     }
 }
 
-/// Products may have over- or underflowed: once more with the direction brought to about 1 and
-/// the corners to a length of which the products neither over- nor underflow, by powers of two.
-#[cold]
-fn extreme<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHit<V::Scalar>> {
-    if !is_valid(ray, triangle) {
-        return None;
+/// Where products may have over- or underflowed: the direction brought to about 1 and the corners to a
+/// length of which the products do neither, by powers of two.
+struct Extreme<T: Scalar> {
+    volumes: Volumes<T>,
+    t_scale: T,
+    scale: T,
+}
+
+impl<T: Scalar> Extreme<T> {
+    /// `None` for bad input, and for a triangle without area as computed.
+    #[cold]
+    fn new<V: Vector<Scalar = T>>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<Self> {
+        if !is_valid(ray, triangle) {
+            return None;
+        }
+        let corners = corners(ray, triangle);
+        let [a0, a1, a2] = corners.map(Coordinates::abs);
+        let scale = a0.max(a1.max(a2)).max_element().normalizer();
+        let t_scale = ray.direction.abs().max_element().normalizer();
+        let large = scale.large_length();
+        let corners = corners.map(|a| a.times_powers(scale, large));
+        let volumes = Volumes::new(&corners, ray.direction * t_scale);
+        (volumes.sum != T::ZERO).then_some(Self { volumes, t_scale, scale })
     }
-    let corners = corners(ray, triangle);
-    let [a0, a1, a2] = corners.map(Coordinates::abs);
-    let scale = a0.max(a1.max(a2)).max_element().normalizer();
-    let t_scale = ray.direction.abs().max_element().normalizer();
-    let large = scale.large_length();
-    let volumes =
-        Volumes::new(&corners.map(|a| a.times_powers(scale, large)), ray.direction * t_scale);
-    let t = (volumes.t() / large).times_ratio(t_scale, scale);
-    let found = volumes.found(t, ray.t_min, ray.t_max);
-    found.into_option().filter(|_| volumes.sum != V::Scalar::ZERO)
+
+    fn detects<V: Vector<Scalar = T>>(&self, ray: &Ray<V>) -> bool {
+        let large = self.scale.large_length();
+        let scaled = |t: T| t.times_ratio(self.scale, self.t_scale) * large;
+        self.volumes.detect(scaled(ray.t_min), scaled(ray.t_max))
+    }
+
+    fn intersect<V: Vector<Scalar = T>>(&self, ray: &Ray<V>) -> Option<TriangleHit<T>> {
+        let t = self.volumes.t() / self.scale.large_length();
+        let t = t.times_ratio(self.t_scale, self.scale);
+        self.volumes.found(t, ray.t_min, ray.t_max).into_option()
+    }
 }
