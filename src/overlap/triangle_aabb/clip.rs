@@ -78,7 +78,7 @@ pub fn overlaps<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> bool {
 #[must_use]
 pub fn clip<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> ClippedPolygon<V> {
     let corners: [V; 3] = (*triangle).into();
-    if aabb.is_empty() || !corners.iter().all(|v| v.is_finite()) {
+    if !triangle.aabb().overlaps(aabb) || !corners.iter().all(|v| v.is_finite()) {
         return ClippedPolygon::EMPTY;
     }
     let [a, b, c] = corners.map(|v| v.abs().max_element());
@@ -136,11 +136,18 @@ impl<V: Vector> Polygon<V> {
 
     /// What the six planes of a box leave.
     fn clipped(self, aabb: &Aabb<V>) -> ClippedPolygon<V> {
-        let polygon = (0..3).fold(self, |polygon, axis| {
+        let bounds = Aabb::from_points(self.triangle);
+        let mut polygon = self;
+        for axis in 0..3 {
             let (min, max) = (aabb.min.component(axis), aabb.max.component(axis));
-            let above = polygon.cut(Plane { axis, bound: min, above: true });
-            above.cut(Plane { axis, bound: max, above: false })
-        });
+            // A plane that the triangle does not reach leaves all of it.
+            if bounds.min.component(axis) < min {
+                polygon = polygon.cut(Plane { axis, bound: min, above: true });
+            }
+            if max < bounds.max.component(axis) {
+                polygon = polygon.cut(Plane { axis, bound: max, above: false });
+            }
+        }
         ClippedPolygon { vertices: polygon.vertices, len: polygon.len }
     }
 

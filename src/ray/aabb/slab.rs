@@ -52,7 +52,7 @@ pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V
         enter_face: face(near, last_entry, last_entry >= ray.t_min, 0),
         exit_face: face(far, first_exit, first_exit <= ray.t_max, 1),
     });
-    if !overlap(aabb, last_entry.max(ray.t_first), t_exit) {
+    if !overlap(aabb, last_entry.max(ray.t_first), V::Scalar::MAX.min(t_exit)) {
         hit = None;
     }
     hit
@@ -85,7 +85,9 @@ const FACES: [Option<Face>; 7] = [
 #[must_use]
 pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
     let (near, far) = slabs(ray, aabb);
-    overlap(aabb, near.fold_max(ray.t_first), far.fold_min(ray.t_max))
+    // The end of the range first, which does not wait for the box.
+    let t_last = V::Scalar::MAX.min(ray.t_max);
+    overlap(aabb, near.fold_max(ray.t_first), far.fold_min(t_last))
 }
 
 /// The t at which the ray enters and leaves each slab. For a parallel ray in a plane of the box one
@@ -100,9 +102,9 @@ fn slabs<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V, V) {
 }
 
 /// Whether what is left of the range is not empty. For a parallel ray outside of its slab the entry
-/// is +∞, or the exit −∞, and so may be the exit and the entry of an unbounded box: a finite entry
-/// before the exit is a hit.
+/// is +∞ or the exit −∞, and so may be the exit and the entry of an unbounded box: the ends of the
+/// range are finite here.
 #[inline(always)]
 fn overlap<V: Vector>(aabb: &Aabb<V>, t_enter: V::Scalar, t_exit: V::Scalar) -> bool {
-    aabb.min.all_le(aabb.max) & t_enter.le(V::Scalar::MAX.min(t_exit))
+    aabb.min.all_le(aabb.max) & t_enter.le(t_exit)
 }

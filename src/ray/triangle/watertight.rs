@@ -182,3 +182,37 @@ fn extreme<V: Vector>(ray: &ShearedRay<V>, sheared: &Sheared<V>) -> Option<Trian
     let found = sheared.found(ray, weights, determinant).into_option();
     found.filter(|_| determinant != V::Scalar::ZERO)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    /// The ray passes the edge p q at a distance of about EPSILON²: the products of the edge function
+    /// round to the same number, and only their errors tell the side. Without them both triangles of
+    /// the edge would be hit.
+    #[test]
+    fn the_side_of_an_edge_is_exact_where_its_products_round_alike() {
+        fn check<V: Vector>() {
+            let number = |x: f64| V::Scalar::ONE.lit(x);
+            let (one, epsilon) = (V::Scalar::ONE, V::Scalar::EPSILON);
+            for turn in 0..3 {
+                let point = |x, y| {
+                    let p = [x, y, one];
+                    V::new(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3])
+                };
+                let (p, q) = (point(one + epsilon, one), point(-one, -(one - epsilon)));
+                let direction = point(number(0.0), number(0.0)); // (0, 0, 1), turned
+                let ray = ShearedRay::new(&Ray::new(V::ZERO, direction));
+                let above = Triangle::new(p, q, point(-one, one));
+                let below = Triangle::new(q, p, point(one, -one));
+                let hits = [above, below].map(|t| intersect(&ray, &t).is_some());
+                // p × q = EPSILON²: the origin is on the side of (1, −1).
+                assert_eq!(hits, [false, true], "{}", core::any::type_name::<V>());
+            }
+        }
+        check::<Vec3>();
+        check::<glam::Vec3A>();
+        check::<DVec3>();
+    }
+}
