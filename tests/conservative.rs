@@ -42,7 +42,7 @@ fn no_box_that_the_ray_touches_is_missed() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release --test suite -- --ignored"]
+#[ignore = "minutes: cargo test --test suite -- --ignored"]
 fn no_box_that_the_ray_touches_is_missed_in_many_more() {
     for_every_vector!(campaign, 400_000_000);
 }
