@@ -16,8 +16,9 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 ///
 /// **Grade: fast.** Each s_i is off by at most 7u times the sum of the magnitudes of its six terms,
 /// u = EPSILON/2, which grows with the square of the distance of the origin; its sign is certain
-/// beyond that. Neighbours agree about the sign at a common edge, not about what they share at a vertex. At an end of the range the verdict
-/// may differ from that of [`intersect`], which divides.
+/// beyond that. Neighbours agree about the sign at a common edge, but a ray may slip through at a vertex.
+/// At an end of the range, and where t is beyond the largest float, the verdict may differ from that of
+/// [`intersect`], which divides.
 ///
 /// A triangle without area as computed, a zero direction, a NaN or infinite field: `false`.
 ///
@@ -169,7 +170,8 @@ impl<T: Scalar> Extreme<T> {
     fn detects<V: Vector<Scalar = T>>(&self, ray: &Ray<V>) -> bool {
         let large = self.scale.large_length();
         let scaled = |t: T| t.times_ratio(self.scale, self.t_scale) * large;
-        self.volumes.detect(scaled(ray.t_min), scaled(ray.t_max))
+        // An empty range would not be noticed where both of its ends underflow.
+        ray.t_min <= ray.t_max && self.volumes.detect(scaled(ray.t_min), scaled(ray.t_max))
     }
 
     fn intersect<V: Vector<Scalar = T>>(&self, ray: &Ray<V>) -> Option<TriangleHit<T>> {
