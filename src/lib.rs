@@ -81,6 +81,11 @@ pub mod ray;
 mod shape;
 mod vector;
 
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use ray::Intersect;
 pub use shape::{Aabb, Affine, Face, Plane, Ray, Sphere, Triangle};
 pub use vector::{Coordinates, Mask, Number, Scalar, Vector};

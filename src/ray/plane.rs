@@ -6,6 +6,7 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 
 /// How a ray meets a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub enum PlaneHit<T> {
     /// The ray crosses the plane at this t.
     At(T),

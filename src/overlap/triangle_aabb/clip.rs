@@ -15,6 +15,7 @@ const CAPACITY: usize = 9;
 /// The part of a triangle that lies in a box: a convex polygon of at most 9 vertices, in the order
 /// of the triangle's. It may be a segment or a point, with vertices that coincide.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct ClippedPolygon<V> {
     vertices: [V; CAPACITY],
     len: usize,
