@@ -169,30 +169,19 @@ mod tests {
     use crate::kernel::{Badouel, MollerTrumbore, Segura, Watertight};
     use crate::mesh::Obj;
 
-    /// Pseudo-random numbers in [−1, 1): G. Marsaglia, "Xorshift RNGs", 2003.
-    struct Random(u32);
-
-    impl Random {
-        fn number(&mut self) -> f32 {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 17;
-            self.0 ^= self.0 << 5;
-            (self.0 >> 8) as f32 / 8_388_608.0 - 1.0
-        }
-
-        fn vector(&mut self) -> Vec3A {
-            Vec3A::new(self.number(), self.number(), self.number())
-        }
+    /// A point in the cube from −1 to 1.
+    fn point(random: &mut fastrand::Rng) -> Vec3A {
+        Vec3A::from([(); 3].map(|()| 2.0 * random.f32() - 1.0))
     }
 
     /// Compares with the naïve loop on rays that start around the mesh and in it.
     fn agrees<K: TriangleKernel>(triangles: &[Triangle<Vec3A>], rays: u32) {
         let hierarchy = Bvh2::<K>::new(triangles, 64.0);
         let naive = NaiveLoop::<K>::new(triangles);
-        let mut random = Random(1);
+        let mut random = fastrand::Rng::with_seed(1);
         let mut hits = 0;
         for _ in 0..rays {
-            let (from, to) = (random.vector() * 2.0, random.vector());
+            let (from, to) = (point(&mut random) * 2.0, point(&mut random));
             let ray = Ray::new(from, to - from);
             let closest = hierarchy.closest(&ray);
             assert_eq!(closest, naive.closest(&ray), "{ray:?}");
