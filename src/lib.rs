@@ -48,7 +48,9 @@
 //! * Shapes have two sides. [`ray::triangle::TriangleHit::front`] tells which one; to cull, filter on it.
 //! * Directions have any length but zero, and t counts in units of it.
 //! * No tolerance is absolute: with all coordinates multiplied by a power of two every verdict is the
-//!   same, up to the ends of the range of exponents.
+//!   same, up to the ends of the range of exponents. Kernels whose products leave its middle start
+//!   again with a scaled problem; what the stated error bounds do not count is underflow within it, of
+//!   components that are smaller than the others by many powers of ten.
 //! * Bad input is a miss: a zero direction, an empty box, a NaN or infinite coordinate (but the bounds
 //!   of a box may be infinite), an empty range. Nothing panics, and no hit holds a NaN.
 //! * A triangle without area is missed by the ray kernels (the watertight one may still hit one that
