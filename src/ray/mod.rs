@@ -110,3 +110,65 @@ fn in_range<N: Number>(t: N, t_min: N, t_max: N) -> N::Mask {
     // A NaN at either end survives `max` and `min` as their second operand.
     (-t.largest()).max(t_min).le(t) & t.le(t.largest().min(t_max))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{Aabb, Sphere, Triangle};
+
+    /// A shape of a user's: the nearest of some others, which are objects.
+    #[cfg(feature = "alloc")]
+    struct Group<'a>([Box<dyn Intersect<Vec3, Hit = f32> + 'a>; 2]);
+
+    #[cfg(feature = "alloc")]
+    impl Intersect for Group<'_> {
+        type Hit = f32;
+        fn intersect(&self, ray: &Ray) -> Option<f32> {
+            self.0.iter().filter_map(|shape| ray.intersect(shape)).reduce(f32::min)
+        }
+    }
+
+    /// Reports t alone.
+    struct Distance<S>(S);
+
+    impl<S: Intersect<Hit = sphere::SphereHit<f32>>> Intersect for Distance<S> {
+        type Hit = f32;
+        fn intersect(&self, ray: &Ray) -> Option<f32> {
+            ray.intersect(&self.0).map(|hit| hit.t)
+        }
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn shapes_of_users_nest_and_may_be_objects() {
+        let far = Distance(Arc::new(Sphere::new(Vec3::Z * 9.0, 1.0)));
+        let near = Sphere::new(Vec3::Z * 4.0, 1.0);
+        let group = Group([Box::new(far), Box::new(Distance(&near))]);
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+        assert_eq!(ray.intersect(&group), Some(3.0));
+        assert!(ray.after(6.0).hits(&group) && !ray.before(3.0).hits(&group));
+    }
+
+    #[test]
+    fn hits_is_intersect_for_every_shape() {
+        let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+        let (aabb, sphere) = (Aabb::new(Vec3::ZERO, Vec3::ONE), Sphere::new(Vec3::ZERO, 0.5));
+        for x in 0_u8..8 {
+            let ray = Ray::new(Vec3::new(f32::from(x) * 0.25, 0.25, 3.0), Vec3::NEG_Z);
+            assert_eq!(ray.hits(&triangle), ray.intersect(&triangle).is_some());
+            assert_eq!(ray.hits(&aabb), ray.intersect(&aabb).is_some());
+            assert_eq!(ray.hits(&Distance(sphere)), ray.intersect(&sphere).is_some());
+        }
+    }
+
+    #[test]
+    fn a_range_is_closed_and_finite() {
+        assert!(in_range(1.0_f32, 1.0, 1.0) && in_range(-3.0, f32::NEG_INFINITY, f32::INFINITY));
+        assert!(!in_range(1.0_f32, 1.5, 2.0) && !in_range(1.0_f32, 0.0, 0.5));
+        assert!(!in_range(1.0_f32, 2.0, 0.0));
+        for t in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+            assert!(!in_range(t, f32::NEG_INFINITY, f32::INFINITY));
+        }
+        assert!(!in_range(1.0, f32::NAN, 2.0) && !in_range(1.0, 0.0, f32::NAN));
+    }
+}
