@@ -33,7 +33,8 @@ fn exactly_in(
         && holds(oracle::triangle_v_in(ray, [v1, v2, v0], w[0], w[1]))
 }
 
-fn check_triangle<V: Vector>(
+/// Holds a kernel's answer against the oracle, within a bound; returns whether it is a hit.
+pub(crate) fn check_triangle<V: Vector>(
     kernel: &TriangleKernel<V>,
     ray_: &oracle::Ray,
     vertices: Vertices,
