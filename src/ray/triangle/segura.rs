@@ -123,7 +123,9 @@ impl<N: Number> Volumes<N> {
     fn detect(&self, t_min: N, t_max: N) -> N::Mask {
         let numerator = N::select(self.sum.lt(self.sum.lit(0.0)), -self.along, self.along);
         let denominator = self.d2 * self.sum.abs();
+        // Both ends of an empty range may round to the same product.
         self.line_passes_inside()
+            & t_min.le(t_max)
             & (t_min * denominator).le(numerator)
             & numerator.le(t_max * denominator)
     }
