@@ -83,26 +83,31 @@ pub trait Number:
 
     /// `(p, e)` with `p` the rounded product and `e` its rounding error: `p + e = self · other`,
     /// exactly, unless the product comes close to the ends of the exponent range.
+    #[doc(hidden)]
     #[must_use]
     fn two_product(self, other: Self) -> (Self, Self);
 
     /// Whether the magnitude lies in the middle half of the range of exponents, from 2⁻⁶³ to 2⁶⁴
     /// (2⁻⁵¹¹ to 2⁵¹² for `f64`): where a computed sum of products does not, over- and underflow may
     /// have spoilt it.
+    #[doc(hidden)]
     #[must_use]
     fn is_mid_range(self) -> Self::Mask;
 
     /// Whether both numbers lie in the middle half of the range of exponents.
+    #[doc(hidden)]
     #[must_use]
     fn are_mid_range(self, other: Self) -> Self::Mask;
 
     /// 2³⁸ (2³⁰⁰ for `f64`): a length of which the cube, six times, is still far from overflow. Scaled
     /// up to it, a problem keeps the products of its small components from underflow.
+    #[doc(hidden)]
     #[must_use]
     fn large_length(self) -> Self;
 
     /// The power of two that brings `|self|` into [1, 2), as far as it is a normal number: [1, 4)
     /// for the largest numbers, less than 1 for subnormal ones.
+    #[doc(hidden)]
     #[must_use]
     fn normalizer(self) -> Self;
 }
@@ -140,6 +145,7 @@ pub trait Scalar:
 
     /// `self · numerator / denominator` for two powers of two, rounded once, though their quotient may
     /// not be a float.
+    #[doc(hidden)]
     #[must_use]
     #[inline]
     fn times_ratio(self, numerator: Self, denominator: Self) -> Self {
@@ -396,10 +402,6 @@ pub trait Coordinates:
     #[must_use]
     fn max(self, other: Self) -> Self;
 
-    /// The least component, if none is NaN.
-    #[must_use]
-    fn min_element(self) -> Self::Scalar;
-
     /// The greatest component, if none is NaN.
     #[must_use]
     fn max_element(self) -> Self::Scalar;
@@ -473,6 +475,7 @@ pub trait Vector:
 
     /// The vector times two powers of two, of which the second is at least 1: exact unless the result
     /// over- or underflows, though their product may not be a float.
+    #[doc(hidden)]
     #[must_use]
     #[inline]
     fn times_powers(self, scale: Self::Scalar, large: Self::Scalar) -> Self {
@@ -539,7 +542,7 @@ macro_rules! vector {
             fn abs(self) -> Self {
                 $v::abs(self)
             }
-            // glam's min, max, min_element and max_element differ in what they do with a NaN from
+            // glam's min, max and max_element differ in what they do with a NaN from
             // one version and processor to the next: kernels that may meet one fold.
             #[inline(always)]
             fn min(self, other: Self) -> Self {
@@ -548,10 +551,6 @@ macro_rules! vector {
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 $v::max(self, other)
-            }
-            #[inline(always)]
-            fn min_element(self) -> $scalar {
-                $v::min_element(self)
             }
             #[inline(always)]
             fn max_element(self) -> $scalar {

@@ -10,18 +10,12 @@ use libfuzzer_sys::fuzz_target;
 type Shapes<V> = (Ray<V>, Aabb<V>);
 
 fuzz_target!(|query: Query<Shapes<Vec3>, Shapes<DVec3>>| match query {
-    Query::Single {
-        shapes: (ray, aabb),
-        is_integral,
-    } => {
+    Query::Single { shapes: (ray, aabb), is_integral } => {
         let answers = check(&ray, &aabb, is_integral);
         let answers_a = check::<Vec3A>(&ray.into(), &aabb.into(), is_integral);
         assert_eq!(answers, answers_a, "Vec3 and Vec3A differ");
     }
-    Query::Double {
-        shapes: (ray, aabb),
-        is_integral,
-    } => {
+    Query::Double { shapes: (ray, aabb), is_integral } => {
         check(&ray, &aabb, is_integral);
     }
 });
@@ -31,10 +25,7 @@ type Answers<T> = (Option<AabbHit<T>>, Option<[T; 2]>);
 /// All kernels' answers.
 fn all<V: Vector>(ray: &Ray<V>, aabb: &Aabb<V>) -> Answers<V::Scalar> {
     let box_ray = BoxRay::new(ray);
-    let (hit, interval) = (
-        slab::intersect(&box_ray, aabb),
-        conservative::interval(&box_ray, aabb),
-    );
+    let (hit, interval) = (slab::intersect(&box_ray, aabb), conservative::interval(&box_ray, aabb));
     assert_eq!(hit.is_some(), slab::hits(&box_ray, aabb));
     assert_eq!(interval.is_some(), conservative::hits(&box_ray, aabb));
     assert_eq!(hit, ray.intersect(aabb));
@@ -83,12 +74,7 @@ fn check<V: Vector>(ray: &Ray<V>, aabb: &Aabb<V>, is_integral: bool) -> Answers<
 
 /// The ends are in order and in the range, and a face is told just where the range does not clip.
 fn check_slab<V: Vector>(hit: &AabbHit<V::Scalar>, ray: &Ray<V>) {
-    let AabbHit {
-        t_enter,
-        t_exit,
-        enter_face,
-        exit_face,
-    } = *hit;
+    let AabbHit { t_enter, t_exit, enter_face, exit_face } = *hit;
     assert!(ray.t_min <= t_enter && t_enter <= t_exit && t_exit <= ray.t_max);
     assert!(t_enter < V::Scalar::INFINITY && -V::Scalar::INFINITY < t_exit);
     for (face, t, clip, towards) in [
@@ -101,10 +87,7 @@ fn check_slab<V: Vector>(hit: &AabbHit<V::Scalar>, ray: &Ray<V>) {
         };
         assert!(t.is_finite());
         let along = face.normal::<V>().dot(ray.direction);
-        assert!(
-            along * towards > V::Scalar::ZERO,
-            "the ray does not cross {face:?}"
-        );
+        assert!(along * towards > V::Scalar::ZERO, "the ray does not cross {face:?}");
     }
     if let Some((t, _)) = hit.surface() {
         assert!(t == t_enter || t == t_exit);

@@ -10,18 +10,12 @@ use libfuzzer_sys::fuzz_target;
 type Shapes<V> = (Ray<V>, Plane<V>);
 
 fuzz_target!(|query: Query<Shapes<Vec3>, Shapes<DVec3>>| match query {
-    Query::Single {
-        shapes: (ray, plane),
-        is_integral,
-    } => {
+    Query::Single { shapes: (ray, plane), is_integral } => {
         let answer = check(&ray, &plane, is_integral);
         let answer_a = check::<Vec3A>(&ray.into(), &plane.into(), is_integral);
         assert_eq!(answer, answer_a, "Vec3 and Vec3A differ");
     }
-    Query::Double {
-        shapes: (ray, plane),
-        is_integral,
-    } => {
+    Query::Double { shapes: (ray, plane), is_integral } => {
         check(&ray, &plane, is_integral);
     }
 });
@@ -49,10 +43,7 @@ fn check<V: Vector>(
             numerator == V::Scalar::ZERO && denominator == V::Scalar::ZERO && valid && can_hit(ray);
         assert_eq!(hit == Some(PlaneHit::Contained), contained);
         for factor in FACTORS.map(V::Scalar::from) {
-            let plane = Plane {
-                offset: plane.offset * factor,
-                ..*plane
-            };
+            let plane = Plane { offset: plane.offset * factor, ..*plane };
             assert_eq!(hit, plane::intersect(&scaled_ray(ray, factor), &plane));
         }
     }

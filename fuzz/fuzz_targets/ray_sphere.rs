@@ -10,18 +10,12 @@ use libfuzzer_sys::fuzz_target;
 type Shapes<V> = (Ray<V>, Sphere<V>);
 
 fuzz_target!(|query: Query<Shapes<Vec3>, Shapes<DVec3>>| match query {
-    Query::Single {
-        shapes: (ray, sphere),
-        is_integral,
-    } => {
+    Query::Single { shapes: (ray, sphere), is_integral } => {
         let answers = check(&ray, &sphere, is_integral);
         let answers_a = check::<Vec3A>(&ray.into(), &sphere.into(), is_integral);
         assert_eq!(answers, answers_a, "Vec3 and Vec3A differ");
     }
-    Query::Double {
-        shapes: (ray, sphere),
-        is_integral,
-    } => {
+    Query::Double { shapes: (ray, sphere), is_integral } => {
         check(&ray, &sphere, is_integral);
     }
 });

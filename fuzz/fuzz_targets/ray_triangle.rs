@@ -11,18 +11,12 @@ use libfuzzer_sys::fuzz_target;
 type Shapes<V> = (Ray<V>, Triangle<V>);
 
 fuzz_target!(|query: Query<Shapes<Vec3>, Shapes<DVec3>>| match query {
-    Query::Single {
-        shapes: (ray, triangle),
-        is_integral,
-    } => {
+    Query::Single { shapes: (ray, triangle), is_integral } => {
         let answers = check(&ray, &triangle, is_integral);
         let answers_a = check::<Vec3A>(&ray.into(), &triangle.into(), is_integral);
         assert_eq!(answers, answers_a, "Vec3 and Vec3A differ");
     }
-    Query::Double {
-        shapes: (ray, triangle),
-        is_integral,
-    } => {
+    Query::Double { shapes: (ray, triangle), is_integral } => {
         check(&ray, &triangle, is_integral);
     }
 });
@@ -83,12 +77,7 @@ fn check_integral<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, answers: &Ans
         let scaled = all(&scaled_ray(ray, factor), &vertices.into());
         assert_eq!(*answers, scaled, "scaled by {factor:?}");
     }
-    let backward = Ray {
-        direction: -ray.direction,
-        t_min: -ray.t_max,
-        t_max: -ray.t_min,
-        ..*ray
-    };
+    let backward = Ray { direction: -ray.direction, t_min: -ray.t_max, t_max: -ray.t_min, ..*ray };
     let reversed = all(&backward, triangle).0;
     for (i, kernel) in KERNELS.iter().enumerate() {
         let (t, t_reversed) = (answers.0[i].map(|hit| -hit.t), reversed[i].map(|hit| hit.t));

@@ -10,28 +10,19 @@ use libfuzzer_sys::fuzz_target;
 type Shapes<V> = (Triangle<V>, Aabb<V>);
 
 fuzz_target!(|query: Query<Shapes<Vec3>, Shapes<DVec3>>| match query {
-    Query::Single {
-        shapes: (triangle, aabb),
-        is_integral,
-    } => {
+    Query::Single { shapes: (triangle, aabb), is_integral } => {
         let verdicts = check(&triangle, &aabb, is_integral);
         let verdicts_a = check::<Vec3A>(&triangle.into(), &aabb.into(), is_integral);
         assert_eq!(verdicts, verdicts_a, "Vec3 and Vec3A differ");
     }
-    Query::Double {
-        shapes: (triangle, aabb),
-        is_integral,
-    } => {
+    Query::Double { shapes: (triangle, aabb), is_integral } => {
         check(&triangle, &aabb, is_integral);
     }
 });
 
 /// The verdicts of `sat` and `clip`.
 fn all<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> [bool; 2] {
-    [
-        sat::overlaps(triangle, aabb),
-        clip::overlaps(triangle, aabb),
-    ]
+    [sat::overlaps(triangle, aabb), clip::overlaps(triangle, aabb)]
 }
 
 fn check<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>, is_integral: bool) -> [bool; 2] {

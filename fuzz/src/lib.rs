@@ -57,26 +57,16 @@ pub enum Query<S, D> {
 impl<'a, S: Draw, D: Draw> Arbitrary<'a> for Query<S, D> {
     fn arbitrary(bytes: &mut Unstructured<'a>) -> arbitrary::Result<Self> {
         let is_single = bytes.arbitrary()?;
-        let style = *bytes.choose(&[
-            Style::Bits,
-            Style::Integers,
-            Style::PowersOfTwo,
-            Style::Mixed,
-        ])?;
+        let style =
+            *bytes.choose(&[Style::Bits, Style::Integers, Style::PowersOfTwo, Style::Mixed])?;
         let is_integral = style == Style::Integers;
         let mut source = Source { bytes, style };
         Ok(if is_single {
             let shapes = S::draw(&mut source);
-            Self::Single {
-                shapes,
-                is_integral,
-            }
+            Self::Single { shapes, is_integral }
         } else {
             let shapes = D::draw(&mut source);
-            Self::Double {
-                shapes,
-                is_integral,
-            }
+            Self::Double { shapes, is_integral }
         })
     }
 }
@@ -152,10 +142,7 @@ impl<V: Vector<Scalar: Float>> Draw for Ray<V> {
 
 impl<V: Vector<Scalar: Float>> Draw for Plane<V> {
     fn draw(source: &mut Source<'_, '_>) -> Self {
-        Self {
-            normal: source.vector(),
-            offset: source.float(),
-        }
+        Self { normal: source.vector(), offset: source.float() }
     }
 }
 
@@ -182,11 +169,7 @@ impl<V: Vector<Scalar: Float>> Draw for Triangle<V> {
 impl<V: Vector<Scalar: Float>> Draw for Aabb<V> {
     fn draw(source: &mut Source<'_, '_>) -> Self {
         let (a, b): (V, V) = (source.vector(), source.vector());
-        if source.raw::<u8>() % 8 == 1 {
-            Self::new(a, b)
-        } else {
-            Self::new(a.min(b), b.max(a))
-        }
+        if source.raw::<u8>() % 8 == 1 { Self::new(a, b) } else { Self::new(a.min(b), b.max(a)) }
     }
 }
 
@@ -212,19 +195,12 @@ pub fn contains<V: Vector>(aabb: &Aabb<V>, point: V) -> bool {
 /// A hit's t is finite and in the closed range.
 pub fn assert_in_range<V: Vector>(kernel: &str, t: V::Scalar, ray: &Ray<V>) {
     assert!(t.is_finite(), "{kernel}: t = {t:?}");
-    assert!(
-        ray.t_min <= t && t <= ray.t_max,
-        "{kernel}: t = {t:?} is out of range"
-    );
+    assert!(ray.t_min <= t && t <= ray.t_max, "{kernel}: t = {t:?} is out of range");
 }
 
 /// The same ray with all coordinates multiplied.
 pub fn scaled_ray<V: Vector>(ray: &Ray<V>, factor: V::Scalar) -> Ray<V> {
-    Ray {
-        origin: ray.origin * factor,
-        direction: ray.direction * factor,
-        ..*ray
-    }
+    Ray { origin: ray.origin * factor, direction: ray.direction * factor, ..*ray }
 }
 
 /// Powers of two which keep small integers, and what kernels compute of them, in the middle of the

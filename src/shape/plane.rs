@@ -26,17 +26,23 @@ impl<V: Vector> Plane<V> {
         Self::from_hesse(normal, normal.dot(point))
     }
 
-    /// The plane of the points `point + x·vx + y·vy`, with the normal `vx × vy`. `None` if that
-    /// normal is zero as computed (parallel spans) or a value is not finite.
+    /// The plane of the points `point + x·vx + y·vy`, with the normal `vx × vy`; where that leaves
+    /// the middle of the range of exponents, with a positive multiple of it. `None` if the normal is
+    /// zero as computed (parallel spans) or a value is not finite.
     #[inline]
     #[must_use]
     pub fn from_point_spans(point: V, vx: V, vy: V) -> Option<Self> {
-        Self::from_point_normal(point, vx.cross(vy))
+        let mut normal = vx.cross(vy);
+        if !Coordinates::abs(normal).max_element().is_mid_range() {
+            let unit = |v: V| v * Coordinates::abs(v).max_element().normalizer();
+            normal = unit(vx).cross(unit(vy));
+        }
+        Self::from_point_normal(point, normal)
     }
 
-    /// The plane through three points, with the normal (b − a) × (c − a): it looks to the side from
-    /// which a, b, c run counter-clockwise. `None` if the normal is zero as computed (collinear
-    /// points) or a value is not finite.
+    /// The plane through three points, with the normal (b − a) × (c − a), or a multiple of it as in
+    /// [`Self::from_point_spans`]: it looks to the side from which a, b, c run counter-clockwise.
+    /// `None` if the normal is zero as computed (collinear points) or a value is not finite.
     #[inline]
     #[must_use]
     pub fn from_points(a: V, b: V, c: V) -> Option<Self> {
@@ -53,11 +59,16 @@ impl<V: Vector> Plane<V> {
     }
 
     /// The distance of `point` from the plane, positive on the side to which the normal points.
-    /// NaN for a plane that has no valid normal.
+    /// NaN for a plane that is not valid; infinite or NaN where products of the coordinates overflow.
     #[inline]
     #[must_use]
     pub fn signed_distance(&self, point: V) -> V::Scalar {
-        (self.normal.dot(point) - self.offset) / self.normal.length()
+        if !self.is_valid() {
+            return V::Scalar::NAN;
+        }
+        let scale = Coordinates::abs(self.normal).max_element().normalizer();
+        let normal = self.normal * scale;
+        (normal.dot(point) - self.offset * scale) / normal.length()
     }
 
     /// Whether the fields are finite and the normal is not zero.
@@ -94,11 +105,29 @@ mod tests {
     }
 
     #[test]
+    fn points_of_any_scale_span_a_plane() {
+        for scale in [1e-44, 1e-25, 1e-12, 1e12, 1e20, 1e37] {
+            let [a, b, c] = [Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * scale);
+            let plane = Plane::from_points(a, b, c).expect("they are not collinear");
+            assert!(plane.normal.x > 0.0 && plane.normal == Vec3::splat(plane.normal.x));
+            assert_eq!(Plane::from_points(a, b, a + (b - a) * 2.0), None);
+        }
+    }
+
+    #[test]
     fn distances_are_signed_and_in_units_of_length() {
         let plane = Plane { normal: Vec3::new(0.0, 0.0, 4.0), offset: 8.0 };
         assert_eq!(plane.signed_distance(Vec3::new(5.0, 5.0, 3.0)), 1.0);
         assert_eq!(plane.signed_distance(Vec3::ZERO), -2.0);
-        let nowhere = Plane { normal: Vec3::ZERO, offset: 0.0 };
-        assert!(nowhere.signed_distance(Vec3::ZERO).is_nan());
+        for offset in [0.0, 1.0] {
+            let nowhere = Plane { normal: Vec3::ZERO, offset };
+            assert!(nowhere.signed_distance(Vec3::ZERO).is_nan());
+        }
+        for length in [1e-30, 1e-40, 1e30] {
+            let plane = Plane { normal: Vec3::Z * length, offset: 0.0 };
+            // A product, a square, a root and a quotient, each rounded.
+            let error = plane.signed_distance(Vec3::Z * 3.0) - 3.0;
+            assert!(error.abs() <= 3.0 * 4.0 * (f32::EPSILON / 2.0), "{length}: {error}");
+        }
     }
 }

@@ -27,13 +27,19 @@ impl<V: Vector> Sphere<V> {
     }
 
     /// The outward unit normal at the point of the sphere nearest to `point`; zero if `point` is
-    /// the centre.
+    /// the centre, NaN if it or the centre is not finite.
     #[inline]
     #[must_use]
     pub fn normal_at(&self, point: V) -> V {
-        let outward = point - self.center;
-        let length = outward.length();
-        if V::Scalar::ZERO.lt(length) { outward * (V::Scalar::ONE / length) } else { V::ZERO }
+        let mut outward = point - self.center;
+        if !outward.is_finite() {
+            let half = V::Scalar::ONE.lit(0.5);
+            outward = point * half - self.center * half;
+        }
+        // The length of a difference may over- or underflow, and so may its reciprocal.
+        let outward = outward * Coordinates::abs(outward).max_element().normalizer();
+        let length = outward.dot(outward).sqrt();
+        if length == V::Scalar::ZERO { V::ZERO } else { outward.divided(V::splat(length)) }
     }
 
     /// The smallest box around the sphere, rounded outward; [`Aabb::EMPTY`] for a sphere that is
@@ -60,10 +66,22 @@ mod tests {
     use super::*;
 
     #[test]
+    fn normals_of_any_size() {
+        for size in [1e-40, 1e-45, 1e-20, 1e20, 3e38] {
+            let around = |point| Sphere::new(Vec3::ZERO, size).normal_at(point);
+            assert_eq!(around(Vec3::NEG_Z * size), Vec3::NEG_Z, "{size}");
+        }
+        // The difference overflows.
+        let far = Sphere::new(Vec3::X * -2e38, 4e37);
+        assert_eq!(far.normal_at(Vec3::X * 2e38), Vec3::X);
+    }
+
+    #[test]
     fn normals_and_bounds() {
         let sphere = Sphere::new(Vec3::new(1.0, 0.0, 0.0), 2.0);
         assert_eq!(sphere.normal_at(Vec3::new(1.0, 5.0, 0.0)), Vec3::Y);
         assert_eq!(sphere.normal_at(sphere.center), Vec3::ZERO);
+        assert!(sphere.normal_at(Vec3::NAN).x.is_nan());
         assert_eq!(sphere.aabb(), Aabb::new(Vec3::new(-1.0, -2.0, -2.0), Vec3::new(3.0, 2.0, 2.0)));
         assert!(Sphere::new(Vec3::ZERO, -1.0).aabb().is_empty());
         assert!(Sphere::new(Vec3::ZERO, f32::NAN).aabb().is_empty());

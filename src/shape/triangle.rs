@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Aabb;
-use crate::vector::{Coordinates, Scalar, Vector};
+use crate::vector::{Coordinates, Number, Scalar, Vector};
 
 /// The closed triangle of three vertices. Edge i joins vertex i to vertex i + 1 (modulo 3).
 ///
@@ -28,19 +28,23 @@ impl<V: Vector> Triangle<V> {
     }
 
     /// (v1 − v0) × (v2 − v0): twice the area long, not normalised. It points to the side from
-    /// which the vertices run counter-clockwise.
+    /// which the vertices run counter-clockwise. In `f32` its products underflow where edges are
+    /// shorter than about 10⁻¹⁹, and overflow where they are longer than 10¹⁹ (`f64`: 10^±154).
     #[inline]
     #[must_use]
     pub fn normal(&self) -> V {
         (self.v1 - self.v0).cross(self.v2 - self.v0)
     }
 
-    /// The area.
+    /// The area; 0 or infinite where the area itself under- or overflows, NaN for a NaN vertex.
     #[inline]
     #[must_use]
     pub fn area(&self) -> V::Scalar {
-        let two = V::Scalar::ONE + V::Scalar::ONE;
-        self.normal().length() / two
+        let (edge1, edge2) = (self.v1 - self.v0, self.v2 - self.v0);
+        let [scale1, scale2] = [edge1, edge2].map(|e| e.abs().max_element().normalizer());
+        let half = V::Scalar::ONE.lit(0.5);
+        let area = (edge1 * scale1).cross(edge2 * scale2).length() * half;
+        area.times_ratio(V::Scalar::ONE / scale1, scale2)
     }
 
     /// The smallest box around the vertices, exactly. A NaN component is left out.
@@ -75,6 +79,18 @@ impl<V: Vector> From<Triangle<V>> for [V; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn areas_of_any_exponent() {
+        let area = |a: f32, b: f32| Triangle::new(Vec3::ZERO, Vec3::X * a, Vec3::Y * b).area();
+        assert_eq!((area(1e-30, 1e-30), area(1e30, 1e30)), (0.0, f32::INFINITY));
+        // Each within three roundings.
+        for (a, b) in [(1e30, 1e-30), (1e18, 1e19), (1e-18, 1e-19)] {
+            let exact = f64::from(a) * f64::from(b) / 2.0;
+            assert!((f64::from(area(a, b)) / exact - 1.0).abs() < 3e-7, "{a} {b}");
+        }
+        assert_eq!(area(1e-45, 1e38), 0.5 * (1e-45 * 1e38));
+    }
 
     #[test]
     fn measures() {

@@ -37,13 +37,10 @@ fn main() {
     let options = Options::parse();
     let rounds = if options.quick { 3 } else { options.rounds };
     println!("{}", report::machine());
-    let questions = ray_triangle::questions()
-        .chain(ray_box::questions())
-        .chain(triangle_box::questions());
+    let questions =
+        ray_triangle::questions().chain(ray_box::questions()).chain(triangle_box::questions());
     for mut question in questions.filter(|q| q.title.contains(&options.question)) {
-        question
-            .contenders
-            .retain(|c| c.is_reference || c.name.contains(&options.filter));
+        question.contenders.retain(|c| c.is_reference || c.name.contains(&options.filter));
         let results = timing::race(&question.contenders, rounds);
         println!("{}", report::table(&question, &results));
     }

@@ -53,20 +53,13 @@ fn bvh_point(v: Vec3) -> Point3<f32> {
 
 /// The bvh crate prepares the reciprocals of the direction in its ray.
 pub fn bvh_ray(ray: &Ray) -> bvh::ray::Ray<f32, 3> {
-    bvh::ray::Ray::new(
-        bvh_point(ray.origin),
-        Vector3::from(ray.direction.to_array()),
-    )
+    bvh::ray::Ray::new(bvh_point(ray.origin), Vector3::from(ray.direction.to_array()))
 }
 
 /// The bvh crate culls back faces: the triangle, turned to the ray's origin.
 pub fn bvh_triangle(ray: &Ray, triangle: &Triangle) -> [Point3<f32>; 3] {
     let [a, b, c] = <[Vec3; 3]>::from(*triangle).map(bvh_point);
-    if triangle.normal().dot(ray.direction) < 0.0 {
-        [a, b, c]
-    } else {
-        [a, c, b]
-    }
+    if triangle.normal().dot(ray.direction) < 0.0 { [a, b, c] } else { [a, c, b] }
 }
 
 /// A box of the bvh crate.

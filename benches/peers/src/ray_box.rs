@@ -24,10 +24,7 @@ pub fn questions() -> impl Iterator<Item = Question> {
 fn contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
     let vec3 = || pairs.map(BoxRay::<Vec3>::new, |_, aabb| *aabb);
     let vec3a = || {
-        pairs.map(
-            |ray| BoxRay::<Vec3A>::new(&(*ray).into()),
-            |_, aabb| Aabb::<Vec3A>::from(*aabb),
-        )
+        pairs.map(|ray| BoxRay::<Vec3A>::new(&(*ray).into()), |_, aabb| Aabb::<Vec3A>::from(*aabb))
     };
     vec![
         Contender::new(
@@ -51,30 +48,12 @@ fn contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
         ),
         Contender::new("isect `slab::hits`, Vec3A", vec3a(), slab::hits, |hit| *hit),
         Contender::new("isect `slab::hits`, Vec3", vec3(), slab::hits, |hit| *hit),
-        Contender::new(
-            "isect `slab::intersect`, Vec3A",
-            vec3a(),
-            slab::intersect,
-            Option::is_some,
-        ),
-        Contender::new(
-            "isect `slab::intersect`, Vec3",
-            vec3(),
-            slab::intersect,
-            Option::is_some,
-        ),
-        Contender::new(
-            "isect `conservative::hits`, Vec3A",
-            vec3a(),
-            conservative::hits,
-            |hit| *hit,
-        ),
-        Contender::new(
-            "isect `conservative::hits`, Vec3",
-            vec3(),
-            conservative::hits,
-            |hit| *hit,
-        ),
+        Contender::new("isect `slab::intersect`, Vec3A", vec3a(), slab::intersect, Option::is_some),
+        Contender::new("isect `slab::intersect`, Vec3", vec3(), slab::intersect, Option::is_some),
+        Contender::new("isect `conservative::hits`, Vec3A", vec3a(), conservative::hits, |hit| {
+            *hit
+        }),
+        Contender::new("isect `conservative::hits`, Vec3", vec3(), conservative::hits, |hit| *hit),
         Contender::new(
             "isect `conservative::interval`, Vec3A",
             vec3a(),

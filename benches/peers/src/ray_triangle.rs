@@ -28,23 +28,15 @@ pub fn questions() -> impl Iterator<Item = Question> {
 fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
     let vec3 = || pairs.map(|ray| *ray, |_, triangle| *triangle);
     let vec3a = || {
-        pairs.map(
-            |ray| Ray::<Vec3A>::from(*ray),
-            |_, triangle| Triangle::<Vec3A>::from(*triangle),
-        )
+        pairs.map(|ray| Ray::<Vec3A>::from(*ray), |_, triangle| Triangle::<Vec3A>::from(*triangle))
     };
     let dvec3 = || {
-        pairs.map(
-            |ray| Ray::<DVec3>::from(*ray),
-            |_, triangle| Triangle::<DVec3>::from(*triangle),
-        )
+        pairs.map(|ray| Ray::<DVec3>::from(*ray), |_, triangle| Triangle::<DVec3>::from(*triangle))
     };
     vec![
         Contender::new(
             "obvhs `Triangle::intersect`",
-            pairs.map(peer::obvhs_ray, |_, triangle| {
-                peer::obvhs_triangle(triangle)
-            }),
+            pairs.map(peer::obvhs_ray, |_, triangle| peer::obvhs_triangle(triangle)),
             |ray, triangle| triangle.intersect(ray),
             |t| t.is_finite(),
         )
@@ -59,9 +51,7 @@ fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
         ),
         Contender::new(
             "parry3d `cast_local_ray_and_get_normal`",
-            pairs.map(peer::parry_ray, |_, triangle| {
-                peer::parry_triangle(triangle)
-            }),
+            pairs.map(peer::parry_ray, |_, triangle| peer::parry_triangle(triangle)),
             |ray, triangle| triangle.cast_local_ray_and_get_normal(ray, f32::MAX, false),
             Option::is_some,
         ),
@@ -89,12 +79,7 @@ fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
             moller_trumbore::intersect,
             Option::is_some,
         ),
-        Contender::new(
-            "isect `segura::detects`, Vec3A",
-            vec3a(),
-            segura::detects,
-            |hit| *hit,
-        ),
+        Contender::new("isect `segura::detects`, Vec3A", vec3a(), segura::detects, |hit| *hit),
         Contender::new(
             "isect `segura::intersect`, Vec3A",
             vec3a(),

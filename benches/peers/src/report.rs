@@ -31,11 +31,8 @@ pub fn machine() -> String {
         "" => "the target's default features",
         features => features,
     };
-    let build = if cfg!(debug_assertions) {
-        " **A debug build: the numbers mean nothing.**"
-    } else {
-        ""
-    };
+    let build =
+        if cfg!(debug_assertions) { " **A debug build: the numbers mean nothing.**" } else { "" };
     format!(
         "{cpu}; {rustc}; {}, {flags}.{build}\n\n{PAIRS} pairs per table, in random order of \
          hits and misses. Times in ns per query. The ratio is taken round by round; its \

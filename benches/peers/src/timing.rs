@@ -44,11 +44,7 @@ impl Contender {
             });
             hits
         };
-        Self {
-            name,
-            is_reference: false,
-            pass: Box::new(pass),
-        }
+        Self { name, is_reference: false, pass: Box::new(pass) }
     }
 
     /// The same contender, as the one with which the others are compared.
@@ -83,10 +79,8 @@ pub fn race(contenders: &[Contender], rounds: usize) -> Vec<Outcome> {
             times[i].push(start.elapsed().as_secs_f64() * 1e9 / PAIRS as f64);
         }
     }
-    let reference = contenders
-        .iter()
-        .position(|c| c.is_reference)
-        .map_or_else(Vec::new, |i| times[i].clone());
+    let reference =
+        contenders.iter().position(|c| c.is_reference).map_or_else(Vec::new, |i| times[i].clone());
     hits.into_iter()
         .zip(times)
         .map(|(hits, times)| Outcome {

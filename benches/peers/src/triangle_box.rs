@@ -29,9 +29,7 @@ fn contenders(pairs: &Pairs<Aabb, Triangle>) -> Vec<Contender> {
     vec![
         Contender::new(
             "parry3d `intersection_test_aabb_triangle`",
-            pairs.map(peer::parry_aabb, |_, triangle| {
-                peer::parry_triangle(triangle)
-            }),
+            pairs.map(peer::parry_aabb, |_, triangle| peer::parry_triangle(triangle)),
             intersection_test_aabb_triangle,
             |hit| *hit,
         )

@@ -4,7 +4,9 @@
 //! 1974. Each new vertex is computed from the triangle and the box, not from vertices that were
 //! themselves computed, so that errors do not add up.
 
-use core::array;
+use core::{array, fmt};
+
+use glam::Vec3;
 
 use crate::shape::{Aabb, Triangle};
 use crate::vector::{Number, Scalar, Vector};
@@ -14,11 +16,26 @@ const CAPACITY: usize = 9;
 
 /// The part of a triangle that lies in a box: a convex polygon of at most 9 vertices, in the order
 /// of the triangle's. It may be a segment or a point, with vertices that coincide.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 #[repr(C)]
-pub struct ClippedPolygon<V> {
+pub struct ClippedPolygon<V = Vec3> {
+    /// Those from `len` on mean nothing.
     vertices: [V; CAPACITY],
     len: usize,
+}
+
+/// Of the vertices.
+impl<V: Vector> fmt::Debug for ClippedPolygon<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("ClippedPolygon").field(&self.vertices()).finish()
+    }
+}
+
+/// Of the vertices, in order.
+impl<V: Vector> PartialEq for ClippedPolygon<V> {
+    fn eq(&self, other: &Self) -> bool {
+        self.vertices() == other.vertices()
+    }
 }
 
 impl<V: Vector> ClippedPolygon<V> {

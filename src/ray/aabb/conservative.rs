@@ -16,8 +16,8 @@ use crate::vector::{Number, Scalar, Vector};
 /// **Grade: conservative.** If any point of the ray lies in the closed box, in exact arithmetic, the
 /// answer is not `None`, and the interval holds every t at which one does, for every finite ray
 /// and box. In return a box may be reported that the ray passes within a few ulps; and one with
-/// infinite bounds that a parallel ray passes at any distance. The bounds are within 6 ulps of the
-/// exact ones.
+/// infinite bounds that a parallel ray passes at any distance. The bounds are within 9 ulps of the
+/// exact ones: three steps of the reciprocal, of up to two ulps of t each, and three roundings.
 ///
 /// An empty box, a box with a NaN, a zero direction, a NaN or infinite origin or direction: `None`.
 ///
@@ -44,6 +44,9 @@ pub fn interval<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<[V::Scalar
 }
 
 /// Whether the ray may hit the box: [`interval`] is not `None`.
+///
+/// **Grade: conservative**, as [`interval`]; and like it false for an empty box, a box with a NaN, a
+/// zero direction, a NaN or infinite origin or direction.
 ///
 /// ```
 /// use isect::{Aabb, Ray, glam::Vec3, ray::aabb::{BoxRay, conservative}};

@@ -93,7 +93,8 @@ pub struct BoxRay<V: Coordinates = Vec3> {
     /// The greatest t that counts, as in [`Ray::t_max`]; a traversal lowers it to the closest hit
     /// so far.
     pub t_max: V::Scalar,
-    /// A reciprocal or a difference may overflow: the quotients are formed one by one instead.
+    /// A reciprocal or a difference may overflow, or a reciprocal is subnormal and has lost bits: the
+    /// quotients are formed one by one instead.
     extreme: bool,
     /// The range reaches below t = 0.
     before_origin: bool,
@@ -132,8 +133,9 @@ impl<V: Vector> BoxRay<V> {
         let far_away = V::Scalar::MAX * V::Scalar::EPSILON * zero.lit(0.125);
         let overflow = |axis: usize| {
             let parallel = direction.component(axis) == zero;
-            (!parallel && !inverse.component(axis).is_finite())
-                || origin.component(axis).abs() > far_away
+            let magnitude = inverse.component(axis).abs();
+            let is_normal = magnitude >= V::Scalar::MIN_POSITIVE && magnitude.is_finite();
+            !(parallel || is_normal) || origin.component(axis).abs() > far_away
         };
         Self {
             origin,

@@ -73,6 +73,9 @@ const FACES: [Option<Face>; 7] = [
 
 /// Whether the ray hits the box: the same verdict as [`intersect`], for less.
 ///
+/// **Grade: fast**, as [`intersect`]; and like it false for an empty box, a box with a NaN, a zero
+/// direction, a NaN or infinite origin or direction.
+///
 /// ```
 /// use isect::{Aabb, Ray, glam::Vec3, ray::aabb::{BoxRay, slab}};
 ///

@@ -19,8 +19,7 @@ use crate::vector::{Coordinates, Number, Vector};
 /// u = EPSILON/2. So hit or miss is certain unless the line passes the surface within that distance.
 ///
 /// A zero direction, a negative radius, a NaN or infinite field: a miss; a root beyond the largest
-/// float does not count. A radius of zero is a
-/// point.
+/// float does not count. A radius of zero is a point.
 ///
 /// ```
 /// use isect::{Ray, Sphere, glam::Vec3, ray::sphere::robust};

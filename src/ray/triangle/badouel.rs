@@ -8,7 +8,15 @@ use crate::shape::{Ray, Triangle};
 use crate::vector::{Coordinates, Number, Scalar, Vector};
 use glam::Vec3;
 
-/// Where the ray meets the triangle: [`Prepared::new`], then [`Prepared::intersect`].
+/// Where the ray meets the triangle, in the closed range of the ray: [`Prepared::new`], then
+/// [`Prepared::intersect`].
+///
+/// With n = e1 × e2, t = (v0 − o)·n / d·n; then u and v of the point o + t·d, by Cramer's rule in the
+/// two axes that are not that of the largest component of n.
+///
+/// **Grade: fast**, with the bounds of [`Prepared::intersect`].
+///
+/// A triangle without area as computed, a zero direction, a NaN or infinite field: a miss.
 ///
 /// ```
 /// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::badouel};
@@ -103,6 +111,15 @@ impl<V: Vector> Prepared<V> {
     /// longest count as zero.)
     ///
     /// A zero direction, a NaN or infinite field: a miss.
+    ///
+    /// ```
+    /// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::badouel::Prepared};
+    ///
+    /// let prepared = Prepared::new(&Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y));
+    /// let hit = prepared.intersect(&Ray::new(Vec3::new(0.25, 0.5, 3.0), Vec3::NEG_Z));
+    /// let hit = hit.expect("it is aimed at the inside");
+    /// assert_eq!((hit.t, hit.u, hit.v, hit.front), (3.0, 0.25, 0.5, true));
+    /// ```
     #[inline]
     #[must_use]
     pub fn intersect(&self, ray: &Ray<V>) -> Option<TriangleHit<V::Scalar>> {

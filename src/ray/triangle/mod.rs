@@ -28,8 +28,8 @@ pub struct TriangleHit<T> {
     pub u: T,
     /// The weight of `v2`.
     pub v: T,
-    /// Whether the vertices run counter-clockwise seen from the ray's origin. No kernel culls: to
-    /// cull back faces, filter on it.
+    /// Whether the direction runs against the normal: for t ≥ 0, whether the vertices run
+    /// counter-clockwise seen from the ray's origin. No kernel culls: to cull back faces, filter on it.
     pub front: bool,
 }
 
@@ -249,6 +249,9 @@ mod tests {
                         assert_eq!(hit.barycentric(), [0.25, 0.25, 0.5].map(number));
                         let away = Ray { direction: -ray.direction, ..ray };
                         assert!(intersect(&away, &triangle).is_none());
+                        let line = away.with_range(-V::Scalar::INFINITY, V::Scalar::ZERO);
+                        let behind = intersect(&line, &triangle).expect("on the line");
+                        assert_eq!((behind.t, behind.front), (number(-1.0), !front));
                         assert!(
                             intersect(&away.with_range(number(-1.0), number(-1.0)), &triangle)
                                 .is_some()

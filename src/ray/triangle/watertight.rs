@@ -81,7 +81,8 @@ impl<V: Vector> ShearedRay<V> {
 ///
 /// With (x_i, y_i) the sheared vertices, the weights are the three edge functions
 /// x_(i+2)·y_(i+1) − y_(i+2)·x_(i+1) over their sum. Where one is zero as computed, the rounding
-/// errors of its products decide, so that every edge's sign is exact.
+/// errors of its products decide, so that every edge's sign is exact on the sheared coordinates (but
+/// where the products of small coordinates underflow).
 ///
 /// **Grade: watertight.** No ray slips between two triangles that share an edge or a vertex
 /// (the same floats in both): the ray hits at least one of the triangles around it. This holds
@@ -168,7 +169,7 @@ impl<V: Vector> Sheared<V> {
 }
 
 /// The weights' sum has left the middle of the range of exponents, or is zero: once more with x and
-/// y scaled by a power of two, so large that the errors of products of small numbers do not vanish.
+/// y brought to about 1 by a power of two.
 #[cold]
 fn extreme<V: Vector>(ray: &ShearedRay<V>, sheared: &Sheared<V>) -> Option<TriangleHit<V::Scalar>> {
     let Sheared { x, y, z } = *sheared;
