@@ -30,6 +30,7 @@
 //! | | [`ray::triangle::moller_trumbore`] | fast | | Möller & Trumbore 1997 |
 //! | | [`ray::triangle::badouel`] | fast | [`ray::triangle::badouel::Prepared`] | Badouel 1990 |
 //! | | [`ray::triangle::segura`] | fast, without a division | | Segura & Feito 1998 |
+//! | | [`ray::triangle::exact`] | exact | | |
 //! | triangle, box | [`overlap::triangle_aabb::sat`], the default | fast | | Akenine-Möller 2001 |
 //! | | [`overlap::triangle_aabb::clip`] | fast, gives the polygon | | Sutherland & Hodgman 1974 |
 //!
@@ -39,6 +40,7 @@
 //!   bound, the verdict may be wrong, and a ray may slip between two triangles.
 //! * **Watertight**: no ray slips between two triangles that share an edge or a vertex.
 //!   **Conservative**: no box that the ray touches is missed.
+//! * **Exact**: the verdict is that of exact arithmetic on the given floats, for every finite input.
 //!
 //! # Conventions
 //!

@@ -9,6 +9,7 @@ mod support;
 mod bad_input;
 mod bounds;
 mod conservative;
+mod exact;
 mod metamorphic;
 mod obvhs;
 mod overlap;

@@ -1,4 +1,21 @@
 //! The arithmetic that decides a sign exactly.
+//!
+//! An exact kernel works in stages: floats with an error bound, which settle almost every case, and
+//! where the bound does not rule a wrong sign out, integers, which settle the rest.
+//!
+//! Every finite float is an integer times a power of two. The points of a case are counted on one
+//! [`grid`], its direction on another; what decides is the sign of a polynomial of these
+//! [`integer`]s, of a degree of four at the most, with no division and no root. Numbers of t are compared
+//! as fractions, in an [`interval`].
+//!
+//! Integers and not floating-point expansions (Shewchuk 1997): the products of an expansion underflow
+//! and overflow, from 2⁻¹⁰²² on or, with their rounding errors, long before, and the verdict would
+//! be exact for moderate exponents only. Integers of a fixed capacity hold every finite input; for
+//! ordinary exponents they are a few limbs long, on the stack, and as quick.
+
+pub(crate) mod grid;
+pub(crate) mod integer;
+pub(crate) mod interval;
 
 use crate::vector::Scalar;
 

@@ -99,6 +99,14 @@ impl<V: Vector> Ray<V> {
         let longest = Coordinates::abs(self.direction).max_element();
         self.origin.is_finite() && self.direction.is_finite() && V::Scalar::ZERO.lt(longest)
     }
+
+    /// Whether the range holds a finite t.
+    #[inline]
+    pub(crate) fn has_range(&self) -> bool {
+        self.t_min <= self.t_max
+            && self.t_min < V::Scalar::INFINITY
+            && -V::Scalar::INFINITY < self.t_max
+    }
 }
 
 #[cfg(test)]

@@ -6,8 +6,10 @@
 //! | [`moller_trumbore`] | fast | leaves where a lost ray does not matter |
 //! | [`badouel`] | fast | many rays against few triangles, prepared once |
 //! | [`segura`] | fast | yes or no without a division |
+//! | [`exact`] | exact | what must be certain: on which edge, in or out of a closed mesh |
 
 pub mod badouel;
+pub mod exact;
 pub mod moller_trumbore;
 pub mod segura;
 pub mod watertight;

@@ -1,0 +1,237 @@
+//! Claim: the exact kernels' verdicts are those of exact arithmetic, for every finite input.
+
+use isect::ray::triangle::exact::{self, Verdict};
+use isect::{Number, Ray, Scalar, Vector};
+
+use crate::support::oracle::TriangleVerdict;
+use crate::support::{
+    for_every_vector, generators, meshes, name, oracle, ray, scalar, triangle, vector,
+};
+
+const SEED: u64 = 11;
+
+/// Powers of two by which the points, and the direction, of a case are multiplied: one of them at random.
+fn magnify<V: Vector>(rng: &mut fastrand::Rng) -> (f64, f64) {
+    let most = if size_of::<V::Scalar>() == 4 { 60 } else { 900 };
+    let power = |rng: &mut fastrand::Rng| 2f64.powi(rng.i32(-most..=most));
+    if rng.u8(..4) == 0 { (power(rng), power(rng)) } else { (1.0, 1.0) }
+}
+
+/// A ray and a triangle that the vector type holds exactly: of all magnitudes, some with mantissas beyond those of `f32`.
+fn triangle_case<V: Vector>(rng: &mut fastrand::Rng) -> (oracle::Ray, [[f64; 3]; 3]) {
+    let (mut ray, mut vertices) = generators::ray_triangle(rng);
+    let (points, direction) = magnify::<V>(rng);
+    let fits = |x: f64| exactly::<V>(x);
+    let scaled = |p: [f64; 3], by: f64| p.map(|x| fits(x * by));
+    ray.origin = scaled(ray.origin, points);
+    ray.direction = scaled(ray.direction, direction);
+    vertices = vertices.map(|v| scaled(v, points));
+    let t = |x: f64| if x.is_finite() { fits(x * points / direction) } else { x };
+    (ray.t_min, ray.t_max) = (t(ray.t_min), t(ray.t_max));
+    (ray, vertices)
+}
+
+/// The finite scalar of the vector type nearest to a double.
+fn exactly<V: Vector>(x: f64) -> f64 {
+    if size_of::<V::Scalar>() == 4 { generators::single(x) } else { x.clamp(f64::MIN, f64::MAX) }
+}
+
+/// Whether a ray meets the segment or the point between some vertices.
+fn meets(ray: &oracle::Ray, [a, b]: [[f64; 3]; 2]) -> bool {
+    oracle::triangle(ray, [a, b, b]).hits()
+}
+
+#[test]
+fn classify_agrees_with_the_oracle() {
+    fn check<V: Vector>() {
+        let mut rng = fastrand::Rng::with_seed(SEED);
+        let mut counts = [0_u32; 6];
+        for _ in 0..400_000 {
+            let (case, v) = triangle_case::<V>(&mut rng);
+            let verdict = exact::classify::<V>(&ray(&case), &triangle(&v));
+            let expected = oracle::triangle(&case, v);
+            let (kind, agrees) = match expected {
+                TriangleVerdict::Miss => (0, verdict == Verdict::Miss),
+                TriangleVerdict::Interior => (1, verdict == Verdict::Interior),
+                TriangleVerdict::Edge(i) => (2, verdict == Verdict::Edge(i)),
+                TriangleVerdict::Vertex(i) => (3, verdict == Verdict::Vertex(i)),
+                TriangleVerdict::Coplanar => (4, verdict == Verdict::Coplanar),
+                TriangleVerdict::Degenerate => (5, is_of_degenerate(&case, &v, verdict)),
+            };
+            assert!(agrees, "{} {case:?} {v:?}: {verdict:?}, not {expected:?}", name::<V>());
+            assert_eq!(exact::hits::<V>(&ray(&case), &triangle(&v)), expected.hits());
+            counts[kind] += 1;
+        }
+        println!(
+            "{:<6} miss, interior, edge, vertex, coplanar, degenerate: {counts:?}",
+            name::<V>()
+        );
+        assert!(counts.iter().all(|&count| count > 1_000), "{counts:?}");
+    }
+    for_every_vector!(check);
+}
+
+/// What is to be reported of a segment or a point that is hit.
+fn is_of_degenerate(case: &oracle::Ray, v: &[[f64; 3]; 3], verdict: Verdict) -> bool {
+    let line = oracle::Ray { t_min: f64::NEG_INFINITY, t_max: f64::INFINITY, ..*case };
+    let vertex = |i: usize| meets(&line, [v[i]; 2]);
+    let edge = |i: usize| meets(case, [v[i], v[(i + 1) % 3]]);
+    let is_point = v[1] == v[0] && v[2] == v[0];
+    let along = (0..3).all(vertex) && !is_point;
+    match verdict {
+        Verdict::Coplanar => along,
+        Verdict::Vertex(i) => !along && (0..3).find(|&i| vertex(i)) == Some(i.into()),
+        Verdict::Edge(i) => !(0..3).any(vertex) && (0..3).find(|&i| edge(i)) == Some(i.into()),
+        Verdict::Miss | Verdict::Interior => false,
+    }
+}
+
+/// Rays aimed at vertices, at edges and along faces, from inside and outside, of closed meshes.
+#[test]
+fn crossings_of_closed_meshes_have_the_right_parity() {
+    fn check<V: Vector>(
+        mesh: &meshes::Mesh,
+        cases: u32,
+        is_inside: impl Fn([f64; 3]) -> Option<bool>,
+    ) {
+        assert!(mesh.is_closed());
+        let triangles: Vec<_> = mesh.triangles().map(|v| triangle::<V>(&v)).collect();
+        let mut rng = fastrand::Rng::with_seed(SEED + 1);
+        let (mut inside, mut on_edges) = (0_u32, 0_u32);
+        for _ in 0..cases {
+            let point = |rng: &mut fastrand::Rng| {
+                [(); 3].map(|()| generators::single(f64::from(rng.i32(-6..=10)) / 4.0))
+            };
+            let face = mesh.faces[rng.usize(..mesh.faces.len())];
+            let [a, b, _] = face.map(|k| mesh.vertices[k as usize]);
+            let mut origin = point(&mut rng);
+            let middle = std::array::from_fn(|k| generators::single((a[k] + b[k]) / 2.0));
+            let target = if rng.bool() { a } else { middle };
+            let mut direction: [f64; 3] =
+                std::array::from_fn(|k| generators::single(target[k] - origin[k]));
+            if rng.u8(..3) == 0 {
+                // Through a vertex, along an edge of some face or an axis.
+                let along = std::array::from_fn(|k| generators::single(b[k] - a[k]));
+                direction = if rng.bool() { along } else { [0.0, 0.0, 1.0] };
+                origin = std::array::from_fn(|k| generators::single(a[k] - 3.0 * direction[k]));
+            }
+            if direction == [0.0; 3] {
+                continue;
+            }
+            let ray = Ray::<V>::new(vector(origin), vector(direction));
+            let line = ray.with_range(-V::Scalar::INFINITY, V::Scalar::INFINITY);
+            let split = scalar(rng.f64() * 4.0);
+            let (mut from_origin, mut of_line, mut of_parts, mut touched) = (0, 0, 0, 0);
+            for triangle in &triangles {
+                let Some(front) = exact::crosses(&line, triangle) else { continue };
+                of_line += if front { 1 } else { -1 };
+                assert!(exact::hits(&line, triangle));
+                from_origin += u32::from(exact::crosses(&ray, triangle).is_some());
+                let parts = [ray.with_range(V::Scalar::ZERO, split), Ray { t_min: split, ..ray }];
+                of_parts += parts.iter().filter_map(|part| exact::crosses(part, triangle)).count();
+                let verdict = exact::classify(&line, triangle);
+                touched += u32::from(matches!(verdict, Verdict::Edge(_) | Verdict::Vertex(_)));
+            }
+            assert_eq!(of_line, 0, "{} {ray:?}", name::<V>());
+            assert_eq!(of_parts, from_origin as usize, "{} {ray:?} {split:?}", name::<V>());
+            // An origin on the surface is where it is moved to.
+            let on_surface = |t| exact::hits(&ray.with_range(scalar(0.0), scalar(0.0)), t);
+            if triangles.iter().any(on_surface) {
+                continue;
+            }
+            if let Some(expected) = is_inside(origin) {
+                assert_eq!(from_origin % 2 == 1, expected, "{} {ray:?}", name::<V>());
+            }
+            inside += from_origin % 2;
+            on_edges += u32::from(touched > 0);
+        }
+        println!("{:<6} {cases} rays, {inside} from inside, {on_edges} on edges", name::<V>());
+        assert!(inside > cases / 100 && on_edges > cases / 3, "{inside} {on_edges}");
+    }
+    let cube = meshes::lattice_cube(2);
+    let in_cube = |p: [f64; 3]| Some(p.iter().all(|x| (0.0..2.0).contains(x)));
+    for_every_vector!(check, &cube, 100_000, in_cube);
+    // The facets lie between a sphere of radius 0.79 and that of the vertices.
+    let sphere = meshes::icosphere(0);
+    let in_sphere = |p: [f64; 3]| {
+        let square = p.iter().map(|x| x * x).sum::<f64>();
+        if square < 0.62 { Some(true) } else { (square > 1.0).then_some(false) }
+    };
+    for_every_vector!(check, &sphere, 100_000, in_sphere);
+}
+
+#[test]
+fn refined_hits_are_within_an_ulp() {
+    fn check<V: Vector>() {
+        let mut rng = fastrand::Rng::with_seed(SEED + 2);
+        let mut counts = [0_u32; 3];
+        for _ in 0..300_000 {
+            let (case, v) = triangle_case::<V>(&mut rng);
+            let (ray, triangle) = (ray::<V>(&case), triangle::<V>(&v));
+            let verdict = exact::classify(&ray, &triangle);
+            let hit = exact::refine(&ray, &triangle);
+            let (t, u, v_weight): (f64, f64, f64) = (hit.t.into(), hit.u.into(), hit.v.into());
+            if verdict == Verdict::Miss {
+                assert!([t, u, v_weight] == [0.0; 3] && !hit.front);
+                counts[0] += 1;
+                continue;
+            }
+            let context = || format!("{} {case:?} {v:?} {hit:?}", name::<V>());
+            assert!(case.t_min <= t && t <= case.t_max && t.is_finite(), "{}", context());
+            let below = |x: V::Scalar| x.next_down().into();
+            let above = |x: V::Scalar| x.next_up().into();
+            match oracle::triangle_t_in(&case, v, below(hit.t), above(hit.t)) {
+                Some(is_near) => {
+                    assert!(is_near, "{}", context());
+                    let near = |lo, hi, test: fn(&oracle::Ray, _, f64, f64) -> Option<bool>| {
+                        test(&case, v, lo, hi) == Some(true)
+                    };
+                    assert!(
+                        near(below(hit.u), above(hit.u), oracle::triangle_u_in),
+                        "{}",
+                        context()
+                    );
+                    assert!(
+                        near(below(hit.v), above(hit.v), oracle::triangle_v_in),
+                        "{}",
+                        context()
+                    );
+                    counts[1] += 1;
+                }
+                None => {
+                    // Nothing of the triangle before, and something at it.
+                    let up_to = |t_max| oracle::Ray { t_max, ..case };
+                    let before: f64 = below(hit.t);
+                    let is_first =
+                        before < case.t_min || !oracle::triangle(&up_to(before), v).hits();
+                    let reached = oracle::triangle(&up_to(above(hit.t)), v).hits();
+                    assert!(is_first && reached, "{}", context());
+                    assert!(u >= 0.0 && v_weight >= 0.0 && u + v_weight < 1.0 + 1e-6);
+                    assert!(!hit.front);
+                    // A t beyond the largest float is not the one of the point.
+                    let is_at = hit.t.abs() == V::Scalar::MAX
+                        || is_close(&case, &v, [t, u, v_weight], V::Scalar::MIN_POSITIVE.into());
+                    assert!(is_at, "{}", context());
+                    counts[2] += 1;
+                }
+            }
+        }
+        println!("{:<6} misses, crossings, in the plane or degenerate: {counts:?}", name::<V>());
+        assert!(counts.iter().all(|&count| count > 10_000), "{counts:?}");
+    }
+    for_every_vector!(check);
+}
+
+/// Whether o + t·d and the weighted vertices are the same point but for rounding: 2⁻²⁰ of the largest terms, for single
+/// precision's 2⁻²⁴ in t and the weights and as much again in what is computed here, 16 times; and what a t loses that
+/// underflows.
+fn is_close(case: &oracle::Ray, v: &[[f64; 3]; 3], [t, u, w]: [f64; 3], smallest: f64) -> bool {
+    (0..3).all(|k| {
+        let (on_ray, step) = (case.origin[k] + t * case.direction[k], t * case.direction[k]);
+        let on_triangle = (1.0 - u - w) * v[0][k] + u * v[1][k] + w * v[2][k];
+        let largest = [case.origin[k], step, v[0][k], v[1][k], v[2][k]].map(f64::abs);
+        let largest = largest.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        let underflow = smallest * case.direction[k].abs();
+        (on_ray - on_triangle).abs() <= largest * 2f64.powi(-20) + underflow || !largest.is_finite()
+    })
+}
