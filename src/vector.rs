@@ -8,7 +8,9 @@
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use glam::{BVec3, BVec3A, DVec3, Vec3, Vec3A, Vec3Swizzles};
+use glam::{
+    BVec3, BVec3A, DMat4, DVec3, DVec4, Mat4, Vec3, Vec3A, Vec3Swizzles, Vec4, Vec4Swizzles,
+};
 
 mod sealed {
     pub trait Sealed {}
@@ -17,6 +19,8 @@ mod sealed {
     impl Sealed for glam::Vec3 {}
     impl Sealed for glam::Vec3A {}
     impl Sealed for glam::DVec3 {}
+    impl Sealed for glam::Vec4 {}
+    impl Sealed for glam::DVec4 {}
 }
 
 /// The answer of a comparison: one truth value per lane.
@@ -131,6 +135,21 @@ pub trait Scalar:
     /// The smallest positive normal number.
     const MIN_POSITIVE: Self;
 
+    /// The least length that a filter reckons with, 2⁻⁴⁰ (2⁻³⁰⁰ for `f64`): it takes shorter vectors
+    /// to be that long, so that a product of three lengths stays far above what underflow loses.
+    #[doc(hidden)]
+    const FILTER_FLOOR: Self;
+
+    /// 2⁹¹ (2⁷²³): what it raises to infinity, lengths from 2³⁷ (2³⁰¹) on, is so long that a product of
+    /// three may overflow.
+    #[doc(hidden)]
+    const FILTER_RAISE: Self;
+
+    /// Undoes [`Self::FILTER_RAISE`], and scales by 2⁻⁶ (2⁻¹⁵): a product of three lengths so scaled is
+    /// 64·(EPSILON/2) times that of the lengths (in `f64` four times as much).
+    #[doc(hidden)]
+    const FILTER_LOWER: Self;
+
     /// The next larger number.
     #[must_use]
     fn next_up(self) -> Self;
@@ -185,7 +204,7 @@ fn two_sum<N: Number>(a: N, b: N) -> (N, N) {
 }
 
 macro_rules! scalar {
-    ($t:ident, $mantissa_bits:literal, $exponent_bits:literal, $max_exponent:literal, $large_length:expr, $sqrt:path, $two_product:path) => {
+    ($t:ident, $mantissa_bits:literal, $exponent_bits:literal, $max_exponent:literal, $large_length:expr, $filter:expr, $sqrt:path, $two_product:path) => {
         impl Number for $t {
             type Mask = bool;
 
@@ -256,6 +275,7 @@ macro_rules! scalar {
             }
         }
 
+        #[allow(clippy::cast_possible_truncation)] // powers of two that the type has
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -264,6 +284,9 @@ macro_rules! scalar {
             const NAN: Self = $t::NAN;
             const MAX: Self = $t::MAX;
             const MIN_POSITIVE: Self = $t::MIN_POSITIVE;
+            const FILTER_FLOOR: Self = pow2($filter[0]) as $t;
+            const FILTER_RAISE: Self = pow2($filter[1]) as $t;
+            const FILTER_LOWER: Self = pow2($filter[2]) as $t;
 
             #[inline(always)]
             fn next_up(self) -> Self {
@@ -324,8 +347,8 @@ const fn pow2(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-scalar!(f32, 23, 8, 0xff, pow2(38), root32::sqrt, two_product_f32);
-scalar!(f64, 52, 11, 0x7ff, pow2(300), root64::sqrt, two_product_f64);
+scalar!(f32, 23, 8, 0xff, pow2(38), [-40, 91, -97], root32::sqrt, two_product_f32);
+scalar!(f64, 52, 11, 0x7ff, pow2(300), [-300, 723, -738], root64::sqrt, two_product_f64);
 
 /// Three numbers x, y, z (or three times several, side by side in lanes), as a kernel body sees
 /// them.
@@ -485,10 +508,94 @@ pub trait Vector:
     /// Whether no component is infinite or NaN.
     #[must_use]
     fn is_finite(self) -> bool;
+
+    /// Four numbers side by side.
+    #[doc(hidden)]
+    type Four: Four<Scalar = Self::Scalar>;
+
+    /// The x, the y and the z of four vectors.
+    #[doc(hidden)]
+    #[must_use]
+    fn transposed(columns: [Self; 4]) -> [Self::Four; 3];
 }
 
+/// Four numbers side by side: of four vectors the same component, so that a kernel can compute with all
+/// four at once.
+#[doc(hidden)]
+pub trait Four:
+    sealed::Sealed
+    + Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+{
+    /// The type of one number.
+    type Scalar;
+
+    /// The same number four times.
+    #[must_use]
+    fn splat(value: Self::Scalar) -> Self;
+
+    /// (0, 1, 2, 3)
+    #[must_use]
+    fn to_array(self) -> [Self::Scalar; 4];
+
+    /// (1, 2, 3, 0)
+    #[must_use]
+    fn rotated(self) -> Self;
+
+    /// (2, 3, 0, 1)
+    #[must_use]
+    fn rotated_twice(self) -> Self;
+
+    /// The absolute value of each.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// The greater of each two; either of them where one is NaN.
+    #[must_use]
+    fn max(self, other: Self) -> Self;
+}
+
+macro_rules! four {
+    ($four:ident, $scalar:ident) => {
+        impl Four for $four {
+            type Scalar = $scalar;
+            #[inline(always)]
+            fn splat(value: $scalar) -> Self {
+                $four::splat(value)
+            }
+            #[inline(always)]
+            fn to_array(self) -> [$scalar; 4] {
+                $four::to_array(&self)
+            }
+            #[inline(always)]
+            fn rotated(self) -> Self {
+                Vec4Swizzles::yzwx(self)
+            }
+            #[inline(always)]
+            fn rotated_twice(self) -> Self {
+                Vec4Swizzles::zwxy(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $four::abs(self)
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                $four::max(self, other)
+            }
+        }
+    };
+}
+
+four!(Vec4, f32);
+four!(DVec4, f64);
+
 macro_rules! vector {
-    ($v:ident, $scalar:ident, $mask:ident, $cross:expr) => {
+    ($v:ident, $scalar:ident, $mask:ident, $four:ident, $mat:ident, $extend:expr, $cross:expr) => {
         impl Coordinates for $v {
             type Scalar = $scalar;
             type Mask3 = $mask;
@@ -579,13 +686,22 @@ macro_rules! vector {
             fn is_finite(self) -> bool {
                 $v::is_finite(self)
             }
+
+            type Four = $four;
+
+            #[inline(always)]
+            fn transposed(columns: [Self; 4]) -> [$four; 3] {
+                let [a, b, c, d] = columns.map($extend);
+                let rows = $mat::from_cols(a, b, c, d).transpose();
+                [rows.x_axis, rows.y_axis, rows.z_axis]
+            }
         }
     };
 }
 
-vector!(Vec3, f32, BVec3, Vec3::cross);
-vector!(DVec3, f64, BVec3, DVec3::cross);
-vector!(Vec3A, f32, BVec3A, |a: Vec3A, b: Vec3A| {
+vector!(Vec3, f32, BVec3, Vec4, Mat4, |v: Vec3| v.extend(0.0), Vec3::cross);
+vector!(DVec3, f64, BVec3, DVec4, DMat4, |v: DVec3| v.extend(0.0), DVec3::cross);
+vector!(Vec3A, f32, BVec3A, Vec4, Mat4, |v: Vec3A| v.extend(v.z), |a: Vec3A, b: Vec3A| {
     let (a_zxy, b_zxy) = (Coordinates::zxy(a), Coordinates::zxy(b));
     Coordinates::zxy(a_zxy * b - a * b_zxy)
 });

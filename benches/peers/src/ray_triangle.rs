@@ -2,7 +2,7 @@
 
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::ray::triangle::watertight::ShearedRay;
-use isect::ray::triangle::{badouel, moller_trumbore, segura, watertight};
+use isect::ray::triangle::{badouel, exact, moller_trumbore, segura, watertight};
 use isect::{Ray, Triangle};
 use parry3d::query::RayCast;
 
@@ -77,6 +77,24 @@ fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
             "isect `moller_trumbore::intersect`, DVec3",
             dvec3(),
             moller_trumbore::intersect,
+            Option::is_some,
+        ),
+        Contender::new(
+            "isect `exact::intersect`, Vec3A",
+            vec3a(),
+            exact::intersect,
+            Option::is_some,
+        ),
+        Contender::new(
+            "isect `exact::intersect`, Vec3",
+            vec3(),
+            exact::intersect,
+            Option::is_some,
+        ),
+        Contender::new(
+            "isect `exact::intersect`, DVec3",
+            dvec3(),
+            exact::intersect,
             Option::is_some,
         ),
         Contender::new("isect `segura::detects`, Vec3A", vec3a(), segura::detects, |hit| *hit),

@@ -2,11 +2,11 @@
 //!
 //! | kernel | grade | for |
 //! |---|---|---|
-//! | [`watertight`] | watertight | anything that must not leak; the default |
+//! | [`exact`] | exact | everything; the default |
+//! | [`watertight`] | watertight | many triangles in the order of a mesh, prepared once per ray |
 //! | [`moller_trumbore`] | fast | leaves where a lost ray does not matter |
 //! | [`badouel`] | fast | many rays against few triangles, prepared once |
 //! | [`segura`] | fast | yes or no without a division |
-//! | [`exact`] | exact | what must be certain: on which edge, in or out of a closed mesh |
 
 pub mod badouel;
 pub mod exact;
@@ -65,7 +65,11 @@ impl<V: Vector> Intersect<V> for Triangle<V> {
     type Hit = TriangleHit<V::Scalar>;
     #[inline]
     fn intersect(&self, ray: &Ray<V>) -> Option<Self::Hit> {
-        watertight::intersect(&watertight::ShearedRay::new(ray), self)
+        exact::intersect(ray, self)
+    }
+    #[inline]
+    fn hits(&self, ray: &Ray<V>) -> bool {
+        exact::hits(ray, self)
     }
 }
 
@@ -288,7 +292,10 @@ mod tests {
         let along = Ray::new(Vec3::new(-1.0, 0.25, 0.0), Vec3::X);
         let above = Ray::new(Vec3::new(-1.0, 0.25, 0.5), Vec3::X);
         let down = Ray::new(Vec3::new(0.5, 0.0, 1.0), Vec3::NEG_Z);
-        for intersect in kernels::<Vec3>() {
+        // All but the exact one, the default, which takes them as the point sets that they are.
+        let [kernels @ .., exact] = kernels::<Vec3>();
+        assert!(exact(&along, &triangle).is_some() && exact(&above, &triangle).is_none());
+        for intersect in kernels {
             assert!(
                 intersect(&along, &triangle).is_none() && intersect(&above, &triangle).is_none()
             );

@@ -2,17 +2,21 @@
 //!
 //! The verdict is that of exact arithmetic on the given floats, for every finite input: whether the
 //! closed ray and the closed triangle, as sets of points, have one in common, and where on the
-//! triangle. Signs of volumes decide, as in [`super::segura`]; integers of a fixed capacity hold them.
+//! triangle. Signs of volumes decide, as in [`super::segura`], in stages: floats with an error bound
+//! (`filter`), for `f32` the same in `f64`, then integers of a fixed capacity (`decide`).
 //!
 //! H. Edelsbrunner, E. P. Mücke, "Simulation of Simplicity", ACM Transactions on Graphics 9.1, 1990,
 //! gave [`crosses`] its idea.
 
 mod decide;
+mod filter;
+
+use glam::DVec3;
 
 use super::TriangleHit;
 use crate::shape::{Ray, Triangle};
 use crate::vector::{Number, Scalar, Vector};
-use decide::Problem;
+use decide::{Location, Problem};
 
 /// Where a ray meets a triangle. Edge i joins vertex i to vertex i + 1 (modulo 3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -31,6 +35,84 @@ pub enum Verdict {
 }
 
 /// Where the ray meets the triangle, in the closed range of the ray.
+///
+/// With e1 = v1 − v0, e2 = v2 − v0, s = o − v0: t = −s·n/d·n with n = e1 × e2, u = det(s, e2, d)/d·n and
+/// v = det(e1, s, d)/d·n, if the signs of the three weights, and t in the range, are certain. If not, see
+/// [`classify`] and [`refine`].
+///
+/// **Grade: exact**: a hit exactly if the closed ray and the closed triangle have a point in common,
+/// for every finite input; a triangle without area is the segment or the point that it is.
+/// Let P(a, b, c) be the sum of the magnitudes of the six terms of a·(b × c) and u' = EPSILON/2. To
+/// first order u is off by at most 8u'·(P(s, d, e2) + |u|·P(d, e1, e2))/|d·n|, v by
+/// 8u'·(P(s, d, e1) + |v|·P(d, e1, e2))/|d·n|, and t by 9u'·(P(s, e1, e2) + |t|·P(d, e1, e2))/|d·n|; where the
+/// bound leaves the verdict open they are as exact as those of [`refine`], but for a rounding.
+/// t is in the range, and the largest float where it is beyond that.
+///
+/// A zero direction, a NaN or infinite field, an empty range: a miss.
+///
+/// ```
+/// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::exact};
+///
+/// let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+/// let ray = Ray::new(Vec3::new(0.25, 0.5, 3.0), Vec3::NEG_Z);
+/// let hit = exact::intersect(&ray, &triangle).expect("it is aimed at the inside");
+/// assert_eq!((hit.t, hit.u, hit.v, hit.front), (3.0, 0.25, 0.5, true));
+/// // The vertex is of the triangle, the next float is not.
+/// let at = |x| Ray::new(Vec3::new(x, 0.0, 1.0), Vec3::NEG_Z);
+/// assert!(exact::intersect(&at(1.0), &triangle).is_some());
+/// assert!(exact::intersect(&at(1.0_f32.next_up()), &triangle).is_none());
+/// ```
+#[inline]
+#[must_use]
+pub fn intersect<V: Vector>(
+    ray: &Ray<V>,
+    triangle: &Triangle<V>,
+) -> Option<TriangleHit<V::Scalar>> {
+    filter::decide(ray, triangle).unwrap_or_else(|_| undecided(ray, triangle))
+}
+
+/// The later stages.
+#[cold]
+#[inline(never)]
+fn undecided<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHit<V::Scalar>> {
+    if size_of::<V::Scalar>() < size_of::<f64>()
+        && let Ok(hit) = filter::decide(&wide_ray(ray), &wide_triangle(triangle))
+    {
+        return hit
+            .map(|TriangleHit { t, u, v, front }| rounded(ray, &Location { t, u, v, front }));
+    }
+    let location = Problem::new(ray, triangle)?.locate()?;
+    Some(rounded(ray, &location))
+}
+
+fn wide<V: Vector>(v: V) -> DVec3 {
+    DVec3::new(v.x().into(), v.y().into(), v.z().into())
+}
+
+fn wide_ray<V: Vector>(ray: &Ray<V>) -> Ray<DVec3> {
+    let (t_min, t_max) = (ray.t_min.into(), ray.t_max.into());
+    Ray { origin: wide(ray.origin), direction: wide(ray.direction), t_min, t_max }
+}
+
+fn wide_triangle<V: Vector>(triangle: &Triangle<V>) -> Triangle<DVec3> {
+    Triangle::new(wide(triangle.v0), wide(triangle.v1), wide(triangle.v2))
+}
+
+/// The hit at a point of the ray's range.
+fn rounded<V: Vector>(ray: &Ray<V>, location: &Location) -> TriangleHit<V::Scalar> {
+    let zero = V::Scalar::ZERO;
+    // Rounding may have left the range by an ulp, or reached infinity.
+    let largest = V::Scalar::MAX;
+    let (t_min, t_max) = (ray.t_min.max(-largest), ray.t_max.min(largest));
+    TriangleHit {
+        t: zero.lit(location.t).max(t_min).min(t_max),
+        u: zero.lit(location.u),
+        v: zero.lit(location.v),
+        front: location.front,
+    }
+}
+
+/// Where the ray meets the triangle, in the closed range of the ray: on which part of it.
 ///
 /// With a_i = v_i − o and s_i = (a_(i+1) × a_(i+2))·d, the line passes inside if no two of the s_i
 /// have opposite signs, through the edge across from vertex i if s_i = 0; t = (a_0·n) / Σ s_i is
@@ -58,11 +140,16 @@ pub enum Verdict {
 /// ```
 #[must_use]
 pub fn classify<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Verdict {
-    Problem::new(ray, triangle).map_or(Verdict::Miss, |problem| problem.classify())
+    match filter::decide(ray, triangle) {
+        Ok(Some(_)) => Verdict::Interior,
+        Ok(None) => Verdict::Miss,
+        Err(_) => Problem::new(ray, triangle).map_or(Verdict::Miss, |p| p.classify()),
+    }
 }
 
-/// Whether the ray meets the triangle, in the closed range of the ray: [`classify`] is not
-/// [`Verdict::Miss`].
+/// Whether the ray meets the triangle, in the closed range of the ray: the verdict of [`intersect`].
+///
+/// **Grade: exact**; and like it false for a zero direction, a NaN or infinite field, an empty range.
 ///
 /// ```
 /// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::exact};
@@ -74,7 +161,10 @@ pub fn classify<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Verdict {
 /// ```
 #[must_use]
 pub fn hits<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
-    classify(ray, triangle) != Verdict::Miss
+    match filter::decide(ray, triangle) {
+        Ok(hit) => hit.is_some(),
+        Err(_) => classify(ray, triangle) != Verdict::Miss,
+    }
 }
 
 /// Where a ray that hits a triangle does so, to the last digits: for the closest hit, once it is found.
@@ -101,17 +191,8 @@ pub fn hits<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
 pub fn refine<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> TriangleHit<V::Scalar> {
     let zero = V::Scalar::ZERO;
     let location = Problem::new(ray, triangle).and_then(|problem| problem.locate());
-    location.map_or(TriangleHit { t: zero, u: zero, v: zero, front: false }, |location| {
-        // Rounding may have left the range by an ulp, or reached infinity.
-        let largest = V::Scalar::MAX;
-        let (t_min, t_max) = (ray.t_min.max(-largest), ray.t_max.min(largest));
-        TriangleHit {
-            t: zero.lit(location.t).max(t_min).min(t_max),
-            u: zero.lit(location.u),
-            v: zero.lit(location.v),
-            front: location.front,
-        }
-    })
+    let none = TriangleHit { t: zero, u: zero, v: zero, front: false };
+    location.map_or(none, |location| rounded(ray, &location))
 }
 
 /// Whether the ray crosses the triangle, for counting: each edge and vertex of a closed mesh belongs to
