@@ -26,6 +26,7 @@
 //! | | [`ray::sphere::algebraic`] | fast, errors ∝ distance² | | Glassner 1989 |
 //! | ray, box | [`ray::aabb::slab`], the default | fast | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
 //! | | [`ray::aabb::conservative`] | conservative | [`ray::aabb::BoxRay`] | after Ize 2013 |
+//! | | [`ray::aabb::exact`] | exact | [`ray::aabb::BoxRay`] | |
 //! | ray, triangle | [`ray::triangle::watertight`], the default | watertight | [`ray::triangle::watertight::ShearedRay`] | Woop et al. 2013 |
 //! | | [`ray::triangle::moller_trumbore`] | fast | | Möller & Trumbore 1997 |
 //! | | [`ray::triangle::badouel`] | fast | [`ray::triangle::badouel::Prepared`] | Badouel 1990 |
@@ -33,6 +34,7 @@
 //! | | [`ray::triangle::exact`] | exact | | |
 //! | triangle, box | [`overlap::triangle_aabb::sat`], the default | fast | | Akenine-Möller 2001 |
 //! | | [`overlap::triangle_aabb::clip`] | fast, gives the polygon | | Sutherland & Hodgman 1974 |
+//! | | [`overlap::triangle_aabb::exact`] | exact | | Akenine-Möller 2001 |
 //!
 //! # Grades
 //!

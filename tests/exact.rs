@@ -1,11 +1,13 @@
 //! Claim: the exact kernels' verdicts are those of exact arithmetic, for every finite input.
 
+use isect::overlap::triangle_aabb::exact as overlap_exact;
+use isect::ray::aabb::{BoxRay, conservative, exact as box_exact};
 use isect::ray::triangle::exact::{self, Verdict};
 use isect::{Number, Ray, Scalar, Vector};
 
 use crate::support::oracle::TriangleVerdict;
 use crate::support::{
-    for_every_vector, generators, meshes, name, oracle, ray, scalar, triangle, vector,
+    aabb, for_every_vector, generators, meshes, name, oracle, ray, scalar, triangle, vector,
 };
 
 const SEED: u64 = 11;
@@ -234,4 +236,76 @@ fn is_close(case: &oracle::Ray, v: &[[f64; 3]; 3], [t, u, w]: [f64; 3], smallest
         let underflow = smallest * case.direction[k].abs();
         (on_ray - on_triangle).abs() <= largest * 2f64.powi(-20) + underflow || !largest.is_finite()
     })
+}
+
+/// A box, or a triangle and a box, magnified as in [`triangle_case`].
+fn scaled_exactly<V: Vector>(p: [f64; 3], by: f64) -> [f64; 3] {
+    p.map(|x| if x.is_finite() { exactly::<V>(x * by) } else { x })
+}
+
+#[test]
+fn overlaps_agrees_with_the_oracles() {
+    fn check<V: Vector>() {
+        let mut rng = fastrand::Rng::with_seed(SEED + 3);
+        let mut overlapping = 0_u32;
+        for _ in 0..300_000 {
+            let (vertices, min, max) = generators::triangle_aabb(&mut rng);
+            let (by, _) = magnify::<V>(&mut rng);
+            let v = vertices.map(|v| scaled_exactly::<V>(v, by));
+            let (mut min, mut max) = (scaled_exactly::<V>(min, by), scaled_exactly::<V>(max, by));
+            match rng.u8(..16) {
+                0 => min[rng.usize(..3)] = f64::NEG_INFINITY,
+                1 => max[rng.usize(..3)] = f64::INFINITY,
+                2 => (min, max) = (max, min),
+                _ => {}
+            }
+            let overlaps = overlap_exact::overlaps::<V>(&triangle(&v), &aabb(&min, &max));
+            let expected = oracle::triangle_aabb_sat(v, min, max);
+            assert_eq!(overlaps, expected, "{} {v:?} {min:?} {max:?}", name::<V>());
+            overlapping += u32::from(expected);
+        }
+        println!("{:<6} 300000 cases, {overlapping} overlap", name::<V>());
+        assert!((75_000..225_000).contains(&overlapping), "{overlapping}");
+    }
+    for_every_vector!(check);
+}
+
+#[test]
+fn box_hits_agree_with_the_oracle() {
+    fn check<V: Vector>() {
+        let mut rng = fastrand::Rng::with_seed(SEED + 4);
+        let (mut touching, mut lowered) = (0_u32, 0_u32);
+        for _ in 0..400_000 {
+            let (mut case, min, max) = generators::ray_aabb(&mut rng);
+            let (points, direction) = magnify::<V>(&mut rng);
+            case.origin = scaled_exactly::<V>(case.origin, points);
+            case.direction = scaled_exactly::<V>(case.direction, direction);
+            let [t_min, t_max, _] =
+                scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
+            (case.t_min, case.t_max) = (t_min, t_max);
+            let (mut min, mut max) =
+                (scaled_exactly::<V>(min, points), scaled_exactly::<V>(max, points));
+            if rng.u8(..32) == 0 {
+                (min, max) = (max, min);
+            }
+            let mut box_ray = BoxRay::<V>::new(&ray(&case));
+            let hits = box_exact::hits(&box_ray, &aabb(&min, &max));
+            let expected = oracle::aabb(&case, min, max);
+            assert_eq!(hits, expected, "{} {case:?} {min:?} {max:?}", name::<V>());
+            touching += u32::from(expected);
+            // A traversal lowers the end.
+            let Some([enter, _]) = conservative::interval(&box_ray, &aabb(&min, &max)) else {
+                continue;
+            };
+            box_ray.t_max = if rng.bool() { enter } else { enter.next_down() };
+            case.t_max = box_ray.t_max.into();
+            let hits = box_exact::hits(&box_ray, &aabb(&min, &max));
+            let expected = oracle::aabb(&case, min, max);
+            assert_eq!(hits, expected, "{} {case:?} {min:?} {max:?}", name::<V>());
+            lowered += u32::from(expected);
+        }
+        println!("{:<6} 400000 cases, {touching} hit, {lowered} up to the entry", name::<V>());
+        assert!((100_000..300_000).contains(&touching) && lowered > 20_000, "{touching} {lowered}");
+    }
+    for_every_vector!(check);
 }

@@ -7,8 +7,10 @@
 //! |---|---|---|
 //! | [`sat`] | 13 separating axes | yes or no; the default |
 //! | [`clip`] | Sutherland–Hodgman | the part of the triangle in the box |
+//! | [`exact`] | 13 separating axes, in integers | a certain yes or no |
 
 pub mod clip;
+pub mod exact;
 pub mod sat;
 
 use crate::shape::{Aabb, Triangle};
@@ -41,6 +43,7 @@ mod tests {
         let verdicts = [
             sat::overlaps(triangle, aabb),
             clip::overlaps(triangle, aabb),
+            exact::overlaps(triangle, aabb),
             sat::overlaps(&Triangle::<Vec3A>::from(*triangle), &Aabb::<Vec3A>::from(*aabb)),
         ];
         assert!(verdicts.iter().all(|v| *v == verdicts[0]), "{triangle:?} {aabb:?} {verdicts:?}");

@@ -7,8 +7,10 @@
 //! |---|---|---|
 //! | [`slab`] | fast | entry and exit with their faces |
 //! | [`conservative`] | never misses a box that the ray touches | the nodes of a hierarchy |
+//! | [`exact`] | exact | what must be certain |
 
 pub mod conservative;
+pub mod exact;
 pub mod slab;
 
 use super::Intersect;
@@ -206,6 +208,7 @@ mod tests {
             slab::intersect(&ray, aabb).is_some(),
             conservative::hits(&ray, aabb),
             conservative::interval(&ray, aabb).is_some(),
+            exact::hits(&ray, aabb),
         ];
         assert!(verdicts.iter().all(|v| *v == verdicts[0]), "{ray:?} {aabb:?} {verdicts:?}");
         verdicts[0]
