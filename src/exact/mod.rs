@@ -17,7 +17,15 @@ pub(crate) mod grid;
 pub(crate) mod integer;
 pub(crate) mod interval;
 
-use crate::vector::Scalar;
+use glam::DVec3;
+
+use crate::vector::{Scalar, Vector};
+
+/// The same vector in `f64`, exactly.
+#[inline]
+pub(crate) fn wide<V: Vector>(v: V) -> DVec3 {
+    DVec3::new(v.x().into(), v.y().into(), v.z().into())
+}
 
 /// a·b − c·d with the exact sign, unless a product comes close to the ends of the exponent range.
 ///

@@ -1,7 +1,7 @@
 //! Does a ray meet a box, and where?
 
 use isect::glam::{Vec3, Vec3A};
-use isect::ray::aabb::{BoxRay, conservative, slab};
+use isect::ray::aabb::{BoxRay, conservative, exact, slab};
 use isect::{Aabb, Ray};
 use parry3d::query::RayCast;
 
@@ -50,6 +50,8 @@ fn contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
         Contender::new("isect `slab::hits`, Vec3", vec3(), slab::hits, |hit| *hit),
         Contender::new("isect `slab::intersect`, Vec3A", vec3a(), slab::intersect, Option::is_some),
         Contender::new("isect `slab::intersect`, Vec3", vec3(), slab::intersect, Option::is_some),
+        Contender::new("isect `exact::hits`, Vec3A", vec3a(), exact::hits, |hit| *hit),
+        Contender::new("isect `exact::hits`, Vec3", vec3(), exact::hits, |hit| *hit),
         Contender::new("isect `conservative::hits`, Vec3A", vec3a(), conservative::hits, |hit| {
             *hit
         }),

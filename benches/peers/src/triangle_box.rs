@@ -1,7 +1,7 @@
 //! Do a triangle and a box overlap?
 
 use isect::glam::Vec3A;
-use isect::overlap::triangle_aabb::{clip, sat};
+use isect::overlap::triangle_aabb::{clip, exact, sat};
 use isect::{Aabb, Triangle};
 use parry3d::query::details::intersection_test_aabb_triangle;
 
@@ -44,6 +44,18 @@ fn contenders(pairs: &Pairs<Aabb, Triangle>) -> Vec<Contender> {
             "isect `sat::overlaps`, Vec3",
             vec3(),
             |aabb, triangle| sat::overlaps(triangle, aabb),
+            |hit| *hit,
+        ),
+        Contender::new(
+            "isect `exact::overlaps`, Vec3A",
+            vec3a(),
+            |aabb, triangle| exact::overlaps(triangle, aabb),
+            |hit| *hit,
+        ),
+        Contender::new(
+            "isect `exact::overlaps`, Vec3",
+            vec3(),
+            |aabb, triangle| exact::overlaps(triangle, aabb),
             |hit| *hit,
         ),
         Contender::new(

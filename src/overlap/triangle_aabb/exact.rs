@@ -1,13 +1,18 @@
 //! Triangle against box by separating axes, decided exactly.
 //!
-//! The axes are those of [`super::sat`]; integers of a fixed capacity hold the projections.
+//! The axes are those of [`super::sat`] (T. Akenine-Möller, "Fast 3D Triangle-Box Overlap Testing", 2001),
+//! in stages: floats with an error bound, the same in `f64`, then integers of a fixed capacity.
 
 use core::cmp::Ordering;
 
+use glam::DVec3;
+
+use super::sat::{Part, edge_margins, edges, plane_margin};
 use crate::exact::grid::Grid;
 use crate::exact::integer::{Int, LARGE, SMALL, cross, is_small, sub};
+use crate::exact::wide;
 use crate::shape::{Aabb, Triangle};
-use crate::vector::Vector;
+use crate::vector::{Number, Scalar, Vector};
 
 /// Whether the triangle and the box share a point: no axis of 13 separates them.
 ///
@@ -27,23 +32,67 @@ use crate::vector::Vector;
 /// let shorter = Aabb::new(Vec3::ZERO, Vec3::new(1.0, 1.0, 1.0_f32.next_down()));
 /// assert!(!exact::overlaps(&triangle, &shorter));
 /// ```
+#[inline]
 #[must_use]
 pub fn overlaps<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> bool {
+    let Some(part) = Part::around(triangle, aabb) else { return false };
+    certain::<V, false>(triangle, &part).unwrap_or_else(|| undecided(triangle, &part))
+}
+
+/// The later stages.
+#[cold]
+#[inline(never)]
+fn undecided<V: Vector>(triangle: &Triangle<V>, part: &Part<V>) -> bool {
     let vertices: [V; 3] = (*triangle).into();
     if !vertices.iter().all(|v| v.is_finite()) {
         return false;
     }
-    // Only the part of the box in that of the triangle matters, and it is finite.
-    let bounds = triangle.aabb();
-    let (min, max) = (bounds.min.max(aabb.min), bounds.max.min(aabb.max));
-    // The bounds of an empty box may enclose the triangle's from outside.
-    aabb.min.all_le(aabb.max)
-        && min.all_le(max)
-        && decide(vertices.map(array), [array(min), array(max)])
+    let vertices = vertices.map(wide);
+    let (min, max) = (wide(part.min), wide(part.max));
+    let (wide_triangle, wide_box) = (Triangle::from(vertices), Aabb::new(min, max));
+    Part::around(&wide_triangle, &wide_box)
+        .and_then(|part| certain::<DVec3, true>(&wide_triangle, &part))
+        .unwrap_or_else(|| decide(vertices.map(DVec3::into), [min.into(), max.into()]))
 }
 
-fn array<V: Vector>(v: V) -> [f64; 3] {
-    [v.x().into(), v.y().into(), v.z().into()]
+/// The verdict of the ten axes that are not the box's own, if it is certain.
+///
+/// Let u be EPSILON/2 and s the longest side of the triangle's bounds, in which the part of the box lies
+/// as well: all differences of coordinates are at most s. On the axes of an edge a margin has four
+/// monomials of at most s², each with 5 roundings (of two differences, a product and two sums): it is off
+/// by at most 20u·s². The normal has components of at most 2s², with 4 roundings; the plane's margin is
+/// the sum of three products of them with a difference, with 4 more: at most 8u·6s³ = 48u·s³. Those are
+/// taken as 32u·s² and 64u·s³, which covers terms of second order. Where s² lies in the middle half of
+/// the range of exponents, nothing overflows, and what underflow loses is far below that.
+#[inline(always)]
+fn certain<V: Vector, const CROSSING: bool>(
+    triangle: &Triangle<V>,
+    part: &Part<V>,
+) -> Option<bool> {
+    let square = part.size * part.size;
+    if !square.is_mid_range() {
+        return None;
+    }
+    let edges = edges(triangle);
+    let bound = square * (V::Scalar::EPSILON * square.lit(16.0));
+    // The plane of a flat triangle is parallel to a face of the box.
+    let flat = CROSSING && !V::splat(V::Scalar::ZERO.next_up()).all_le(part.extent);
+    if !flat {
+        let margin = plane_margin(triangle, &edges, part);
+        if !is_positive(margin, bound * (part.size + part.size))? {
+            return Some(false);
+        }
+    }
+    let margins = edge_margins::<V, CROSSING>(triangle, &edges, part);
+    let margin = margins.x().min(margins.y()).min(margins.z());
+    is_positive(margin, bound)
+}
+
+/// Whether a number that is off by at most the bound is positive or negative, if that is certain; it never
+/// is of a NaN.
+#[inline(always)]
+fn is_positive<T: Scalar>(computed: T, bound: T) -> Option<bool> {
+    (computed.abs() > bound).then_some(computed > T::ZERO)
 }
 
 /// The ten axes that are not the box's own, for a box inside of the triangle's.

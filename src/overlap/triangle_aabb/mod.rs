@@ -5,9 +5,9 @@
 //!
 //! | kernel | method | for |
 //! |---|---|---|
-//! | [`sat`] | 13 separating axes | yes or no; the default |
+//! | [`exact`] | 13 separating axes, certain | yes or no; the default |
+//! | [`sat`] | 13 separating axes | yes or no |
 //! | [`clip`] | Sutherland–Hodgman | the part of the triangle in the box |
-//! | [`exact`] | 13 separating axes, in integers | a certain yes or no |
 
 pub mod clip;
 pub mod exact;
@@ -18,7 +18,7 @@ use crate::vector::Vector;
 
 impl<V: Vector> Triangle<V> {
     /// Whether the triangle and the box share a point, by the kernel that the crate recommends:
-    /// today [`sat::overlaps`].
+    /// [`exact::overlaps`].
     ///
     /// ```
     /// use isect::{Aabb, Triangle, glam::Vec3};
@@ -30,7 +30,7 @@ impl<V: Vector> Triangle<V> {
     #[inline]
     #[must_use]
     pub fn overlaps(&self, aabb: &Aabb<V>) -> bool {
-        sat::overlaps(self, aabb)
+        exact::overlaps(self, aabb)
     }
 }
 

@@ -1,15 +1,15 @@
 //! Ray against box, decided exactly.
 //!
-//! The reciprocals of a [`BoxRay`] bound each t from both sides: bounds moved outward tell most
-//! misses, as in [`super::conservative`], bounds moved inward most hits. Integers of a fixed capacity
-//! decide the rest.
+//! The slabs of [`super::slab`] (T. L. Kay, J. T. Kajiya, 1986) with an error bound; integers of a fixed
+//! capacity decide what it leaves open.
 
-use super::{BoxRay, conservative};
+use super::{AabbHit, BoxRay, slab};
 use crate::exact::grid::Grid;
 use crate::exact::integer::{LARGE, SMALL, is_small};
 use crate::exact::interval::Interval;
+use crate::exact::wide;
 use crate::shape::Aabb;
-use crate::vector::{Number, Vector};
+use crate::vector::{Number, Scalar, Vector};
 
 /// Whether the ray meets the box, in the closed range of the ray.
 ///
@@ -34,42 +34,64 @@ use crate::vector::{Number, Vector};
 #[inline]
 #[must_use]
 pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
-    conservative::hits(ray, aabb) && (certainly_hits(ray, aabb) || decide(ray, aabb))
-}
-
-/// Whether the last entry, moved towards later times, is still before the first exit moved towards
-/// earlier ones.
-///
-/// With u = EPSILON/2: a computed difference is the exact one times a factor within 1 ∓ u, and so is the
-/// reciprocal before its steps; `far_inverse` has made three steps up, each by at least the factor 1 + u,
-/// `near_inverse` two down. As (1 − u)²·(1 + u)³ > 1 > (1 + u)²·(1 − u)², a difference's products with the
-/// two, before their own rounding, enclose t, whatever its sign. Rounding keeps order: of two rounded
-/// numbers one is less than the other only if it was so before. (Equal ones may have been in any order, so
-/// that touching is not certain. A subnormal reciprocal is off by half a step, which the steps outweigh as well.)
-#[inline]
-fn certainly_hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
-    if ray.extreme {
-        return false;
+    // Each end is one of the range, exactly, or within 3.1u of the exact t, u = EPSILON/2, but for what
+    // underflow loses. So their difference has the right sign if it is more than 2·3.1u times the lesser
+    // of them, and a little: the greater one is then no further off.
+    let (near, far) = slab::slabs(ray, aabb);
+    let (t_enter, t_exit) = (near.fold_max(ray.t_min), far.fold_min(ray.t_max));
+    let gap = t_exit - t_enter;
+    let least = t_enter.abs().min(t_exit.abs()).min(V::Scalar::MAX);
+    let bound = least * (V::Scalar::EPSILON * least.lit(4.0)) + V::Scalar::MIN_POSITIVE;
+    if gap.abs() > bound {
+        aabb.min.all_le(aabb.max) & V::Scalar::ZERO.lt(gap)
+    } else {
+        decide(ray, aabb)
     }
-    let (near, far) = ray.differences(aabb);
-    let enter = near.scaled(ray.near_inverse).max(near.scaled(ray.far_inverse));
-    let exit = far.scaled(ray.near_inverse).min(far.scaled(ray.far_inverse));
-    // For a parallel ray in a plane of the box a bound is 0 · ∞, a NaN, which folding drops.
-    enter.fold_max(ray.t_min).lt(exit.fold_min(ray.t_max))
 }
 
-/// A ray that is not refused by [`conservative::hits`], so that origin and direction are finite, and
-/// a box that is not empty.
+/// Where the ray enters and leaves the box, and through which faces: [`slab::intersect`] with the verdict
+/// of [`hits`].
+///
+/// **Grade: exact** for hit or miss; t_enter and t_exit are within 3.1u of the exact ones, u = EPSILON/2, or
+/// an end of the range, and the faces are those of the entry and exit so computed. Where the exact ones
+/// are closer than that and the computed ones are in the wrong order, they are reported as equal. A t
+/// beyond the largest float is that.
+///
+/// What [`hits`] takes for a miss: `None`.
+///
+/// ```
+/// use isect::{Aabb, Face, Ray, glam::Vec3, ray::aabb::{BoxRay, exact}};
+///
+/// let aabb = Aabb::new(Vec3::splat(-1.0), Vec3::splat(1.0));
+/// let ray = BoxRay::new(&Ray::new(Vec3::new(-3.0, 0.0, 0.0), Vec3::X));
+/// let hit = exact::intersect(&ray, &aabb).expect("it is aimed at the centre");
+/// assert_eq!((hit.t_enter, hit.t_exit, hit.enter_face), (2.0, 4.0, Some(Face::NegX)));
+/// ```
+#[inline]
+#[must_use]
+pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V::Scalar>> {
+    if !hits(ray, aabb) {
+        return None;
+    }
+    let (_, mut hit) = slab::crossing(ray, aabb);
+    // The ends in the range, and in order.
+    let largest = V::Scalar::MAX;
+    hit.t_enter = hit.t_enter.min(ray.t_max).min(largest);
+    hit.t_exit = hit.t_exit.max(hit.t_enter);
+    Some(hit)
+}
+
+/// Decides a case that the bound leaves open, or one with bad input.
 #[cold]
+#[inline(never)]
 fn decide<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
-    let array = |v: V| [v.x().into(), v.y().into(), v.z().into()];
     let problem = Problem {
-        origin: array(ray.origin),
-        direction: array(ray.direction),
+        origin: wide(ray.origin).to_array(),
+        direction: wide(ray.direction).to_array(),
         t_min: ray.t_min.into(),
         t_max: ray.t_max.into(),
-        min: array(aabb.min),
-        max: array(aabb.max),
+        min: wide(aabb.min).to_array(),
+        max: wide(aabb.max).to_array(),
     };
     problem.hits()
 }
@@ -85,7 +107,7 @@ struct Problem {
 
 impl Problem {
     fn hits(&self) -> bool {
-        // Bounds and ranges that lie at infinity hold nothing.
+        // Bounds and ranges that lie at infinity hold nothing. (The range of a bad ray starts at a NaN.)
         let reaches =
             |low: f64, high: f64| low <= high && low < f64::INFINITY && f64::NEG_INFINITY < high;
         if !(reaches(self.t_min, self.t_max)

@@ -5,9 +5,9 @@
 //!
 //! | kernel | grade | for |
 //! |---|---|---|
+//! | [`exact`] | exact | everything; the default |
 //! | [`slab`] | fast | entry and exit with their faces |
 //! | [`conservative`] | never misses a box that the ray touches | the nodes of a hierarchy |
-//! | [`exact`] | exact | what must be certain |
 
 pub mod conservative;
 pub mod exact;
@@ -51,11 +51,11 @@ impl<V: Vector> Intersect<V> for Aabb<V> {
     type Hit = AabbHit<V::Scalar>;
     #[inline]
     fn intersect(&self, ray: &Ray<V>) -> Option<Self::Hit> {
-        slab::intersect(&BoxRay::new(ray), self)
+        exact::intersect(&BoxRay::new(ray), self)
     }
     #[inline]
     fn hits(&self, ray: &Ray<V>) -> bool {
-        slab::hits(&BoxRay::new(ray), self)
+        exact::hits(&BoxRay::new(ray), self)
     }
 }
 

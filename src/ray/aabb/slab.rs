@@ -33,6 +33,19 @@ use crate::vector::{Number, Scalar, Vector};
 #[inline]
 #[must_use]
 pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V::Scalar>> {
+    let (overlap, crossing) = crossing(ray, aabb);
+    // Written so that it compiles to conditional moves and not to branches, which random rays would
+    // mispredict.
+    let mut hit = Some(crossing);
+    if !overlap {
+        hit = None;
+    }
+    hit
+}
+
+/// Where the ray's line enters and leaves the box, clipped to the range, and whether in this order.
+#[inline(always)]
+pub(super) fn crossing<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (bool, AabbHit<V::Scalar>) {
     let infinity = V::Scalar::INFINITY;
     let (near, far) = slabs(ray, aabb);
     let (last_entry, first_exit) = (near.fold_max(-infinity), far.fold_min(infinity));
@@ -44,18 +57,13 @@ pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V
         let face = 2 * axis + usize::from(ray.entry_side[axis] ^ far_side);
         FACES[if crossed & t.is_finite() { face } else { NO_FACE }]
     };
-    // Written so that it compiles to conditional moves and not to branches, which random rays would
-    // mispredict.
-    let mut hit = Some(AabbHit {
+    let hit = AabbHit {
         t_enter,
         t_exit,
         enter_face: face(near, last_entry, last_entry >= ray.t_min, 0),
         exit_face: face(far, first_exit, first_exit <= ray.t_max, 1),
-    });
-    if !overlap(aabb, last_entry.max(ray.t_first), V::Scalar::MAX.min(t_exit)) {
-        hit = None;
-    }
-    hit
+    };
+    (overlap(aabb, last_entry.max(ray.t_first), V::Scalar::MAX.min(t_exit)), hit)
 }
 
 const NO_FACE: usize = 6;
@@ -96,7 +104,7 @@ pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
 /// The t at which the ray enters and leaves each slab. For a parallel ray in a plane of the box one
 /// is 0 · ∞, a NaN, which folding drops.
 #[inline(always)]
-fn slabs<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V, V) {
+pub(super) fn slabs<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (V, V) {
     if ray.extreme {
         return ray.quotients(aabb);
     }

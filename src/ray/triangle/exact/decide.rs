@@ -8,6 +8,7 @@ use crate::exact::integer::{
     Int, LARGE, SMALL, cross, cross_component, dot, first_nonzero, is_small, sub,
 };
 use crate::exact::interval::{Interval, Parameter};
+use crate::exact::wide;
 use crate::shape::{Ray, Triangle};
 use crate::vector::Vector;
 
@@ -28,9 +29,8 @@ impl Problem {
         if !(super::super::is_valid(ray, triangle) && ray.has_range()) {
             return None;
         }
-        let array = |v: V| [v.x().into(), v.y().into(), v.z().into()];
-        let (origin, direction) = (array(ray.origin), array(ray.direction));
-        let vertices = [triangle.v0, triangle.v1, triangle.v2].map(array);
+        let (origin, direction) = (wide(ray.origin).to_array(), wide(ray.direction).to_array());
+        let vertices = [triangle.v0, triangle.v1, triangle.v2].map(|v| wide(v).to_array());
         let points = Grid::through(&origin).joined(Grid::through(vertices.as_flattened()));
         let directions = Grid::through(&direction);
         let (t_min, t_max) = (ray.t_min.into(), ray.t_max.into());

@@ -14,6 +14,7 @@ mod filter;
 use glam::DVec3;
 
 use super::TriangleHit;
+use crate::exact::wide;
 use crate::shape::{Ray, Triangle};
 use crate::vector::{Number, Scalar, Vector};
 use decide::{Location, Problem};
@@ -83,10 +84,6 @@ fn undecided<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<Triangle
     }
     let location = Problem::new(ray, triangle)?.locate()?;
     Some(rounded(ray, &location))
-}
-
-fn wide<V: Vector>(v: V) -> DVec3 {
-    DVec3::new(v.x().into(), v.y().into(), v.z().into())
 }
 
 fn wide_ray<V: Vector>(ray: &Ray<V>) -> Ray<DVec3> {
