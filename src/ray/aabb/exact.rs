@@ -36,11 +36,14 @@ use crate::vector::{Number, Scalar, Vector};
 pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
     // Each end is one of the range, exactly, or within 3.1u of the exact t, u = EPSILON/2, but for what
     // underflow loses. So their difference has the right sign if it is more than 2·3.1u times the lesser
-    // of them, and a little: the greater one is then no further off.
+    // of them, and a little: the greater one is then no further off. What is beyond the largest float
+    // counts as that: two such are not told apart.
     let (near, far) = slab::slabs(ray, aabb);
-    let (t_enter, t_exit) = (near.fold_max(ray.t_min), far.fold_min(ray.t_max));
+    let largest = V::Scalar::MAX;
+    let t_enter = near.fold_max(ray.t_first).min(largest);
+    let t_exit = far.fold_min(largest.min(ray.t_max)).max(-largest);
     let gap = t_exit - t_enter;
-    let least = t_enter.abs().min(t_exit.abs()).min(V::Scalar::MAX);
+    let least = t_enter.abs().min(t_exit.abs());
     let bound = least * (V::Scalar::EPSILON * least.lit(4.0)) + V::Scalar::MIN_POSITIVE;
     if gap.abs() > bound {
         aabb.min.all_le(aabb.max) & V::Scalar::ZERO.lt(gap)
