@@ -7,18 +7,23 @@ use parry3d::query::RayCast;
 
 use crate::data::{self, Pairs};
 use crate::peer;
-use crate::timing::{Contender, Question};
+use crate::timing::{Contender, Question, stages};
 
 /// Two hit rates.
 pub fn questions() -> impl Iterator<Item = Question> {
-    [0.1, 0.5].into_iter().map(|hit_rate| Question {
+    [0.1, 0.5].into_iter().map(|hit_rate| {
+        let pairs = data::ray_box(hit_rate);
+        Question {
         title: format!("ray/box, {:.0} % hits", 100.0 * hit_rate),
         note: "obvhs, parry3d answer with the t of the entry (obvhs for the whole line, without the \
                range), the bvh crate and `hits` with yes or no, `slab::intersect` with both ends \
                and their faces, `interval` with both ends. obvhs, the bvh crate and isect have \
                prepared the reciprocals in their rays; parry3d has not.",
-        contenders: contenders(&data::ray_box(hit_rate)),
-    })
+        contenders: contenders(&pairs),
+        stages: stages(&pairs, |ray, aabb| {
+            exact::stage(&BoxRay::<Vec3A>::new(&(*ray).into()), &Aabb::<Vec3A>::from(*aabb))
+        }),
+    }})
 }
 
 fn contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {

@@ -8,12 +8,14 @@ use parry3d::query::RayCast;
 
 use crate::data::{self, Pairs};
 use crate::peer;
-use crate::timing::{Contender, Question};
+use crate::timing::{Contender, Question, stages};
 
 /// Two hit rates and two sizes.
 pub fn questions() -> impl Iterator<Item = Question> {
     let cases = [(0.1, 1.0), (0.5, 1.0), (0.1, 0.01), (0.5, 0.01)];
-    cases.into_iter().map(|(hit_rate, size)| Question {
+    cases.into_iter().map(|(hit_rate, size)| {
+        let pairs = data::ray_triangle(hit_rate, size);
+        Question {
         title: format!(
             "ray/triangle, {:.0} % hits, triangles of size {size} at a distance of 1 to 3",
             100.0 * hit_rate
@@ -21,8 +23,11 @@ pub fn questions() -> impl Iterator<Item = Question> {
         note: "obvhs answers with t alone, parry3d with t and a unit normal, the bvh crate with t, u \
                and v of front faces only (its triangles are turned to the ray), isect with t, u, v \
                and the side; `detects` with yes or no.",
-        contenders: contenders(&data::ray_triangle(hit_rate, size)),
-    })
+        contenders: contenders(&pairs),
+        stages: stages(&pairs, |ray, triangle| {
+            exact::stage(&Ray::<Vec3A>::from(*ray), &Triangle::<Vec3A>::from(*triangle))
+        }),
+    }})
 }
 
 fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
@@ -85,12 +90,7 @@ fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
             exact::intersect,
             Option::is_some,
         ),
-        Contender::new(
-            "isect `exact::intersect`, Vec3",
-            vec3(),
-            exact::intersect,
-            Option::is_some,
-        ),
+        Contender::new("isect `exact::intersect`, Vec3", vec3(), exact::intersect, Option::is_some),
         Contender::new(
             "isect `exact::intersect`, DVec3",
             dvec3(),

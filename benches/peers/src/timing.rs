@@ -13,6 +13,15 @@ pub struct Question {
     pub note: &'static str,
     /// One of them is the reference.
     pub contenders: Vec<Contender>,
+    /// How many of the queries each stage of the exact kernel decides: floats, `f64`, integers.
+    pub stages: [usize; 3],
+}
+
+/// Counts the queries by the stage that decides them.
+pub fn stages<A, B>(pairs: &Pairs<A, B>, stage: impl Fn(&A, &B) -> usize) -> [usize; 3] {
+    let mut counts = [0; 3];
+    pairs.for_each(|a, b| counts[stage(a, b)] += 1);
+    counts
 }
 
 /// A kernel with its queries.

@@ -47,12 +47,30 @@ fn undecided<V: Vector>(triangle: &Triangle<V>, part: &Part<V>) -> bool {
     if !vertices.iter().all(|v| v.is_finite()) {
         return false;
     }
-    let vertices = vertices.map(wide);
-    let (min, max) = (wide(part.min), wide(part.max));
-    let (wide_triangle, wide_box) = (Triangle::from(vertices), Aabb::new(min, max));
-    Part::around(&wide_triangle, &wide_box)
-        .and_then(|part| certain::<DVec3, true>(&wide_triangle, &part))
-        .unwrap_or_else(|| decide(vertices.map(DVec3::into), [min.into(), max.into()]))
+    certain_in_f64(triangle, part).unwrap_or_else(|| {
+        let [min, max] = [part.min, part.max].map(|p| wide(p).to_array());
+        decide(vertices.map(|v| wide(v).to_array()), [min, max])
+    })
+}
+
+/// The verdict with the bounds of `f64`, and without the axes that decide nothing.
+fn certain_in_f64<V: Vector>(triangle: &Triangle<V>, part: &Part<V>) -> Option<bool> {
+    let triangle = Triangle::from(<[V; 3]>::from(*triangle).map(wide));
+    let part = Part::around(&triangle, &Aabb::new(wide(part.min), wide(part.max)))?;
+    certain::<DVec3, true>(&triangle, &part)
+}
+
+/// Which stage decides a case, for measurements: 0 are floats, 1 is `f64`, 2 are integers.
+#[doc(hidden)]
+#[must_use]
+pub fn stage<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> usize {
+    Part::around(triangle, aabb).map_or(0, |part| {
+        if certain::<V, false>(triangle, &part).is_some() {
+            0
+        } else {
+            1 + usize::from(certain_in_f64(triangle, &part).is_none())
+        }
+    })
 }
 
 /// The verdict of the ten axes that are not the box's own, if it is certain.

@@ -34,10 +34,17 @@ use crate::vector::{Number, Scalar, Vector};
 #[inline]
 #[must_use]
 pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
-    // Each end is one of the range, exactly, or within 3.1u of the exact t, u = EPSILON/2, but for what
-    // underflow loses. So their difference has the right sign if it is more than 2·3.1u times the lesser
-    // of them, and a little: the greater one is then no further off. What is beyond the largest float
-    // counts as that: two such are not told apart.
+    certain(ray, aabb).unwrap_or_else(|| decide(ray, aabb))
+}
+
+/// The verdict if it is certain.
+///
+/// Each end is one of the range, exactly, or within 3.1u of the exact t, u = EPSILON/2, but for what
+/// underflow loses. So their difference has the right sign if it is more than 2·3.1u times the lesser of
+/// them, and a little: the greater one is then no further off. What is beyond the largest float counts as
+/// that: two such are not told apart.
+#[inline(always)]
+fn certain<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<bool> {
     let (near, far) = slab::slabs(ray, aabb);
     let largest = V::Scalar::MAX;
     let t_enter = near.fold_max(ray.t_first).min(largest);
@@ -45,11 +52,14 @@ pub fn hits<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
     let gap = t_exit - t_enter;
     let least = t_enter.abs().min(t_exit.abs());
     let bound = least * (V::Scalar::EPSILON * least.lit(4.0)) + V::Scalar::MIN_POSITIVE;
-    if gap.abs() > bound {
-        aabb.min.all_le(aabb.max) & V::Scalar::ZERO.lt(gap)
-    } else {
-        decide(ray, aabb)
-    }
+    (gap.abs() > bound).then_some(aabb.min.all_le(aabb.max) & V::Scalar::ZERO.lt(gap))
+}
+
+/// Which stage decides a case, for measurements: 0 are floats, 2 are integers.
+#[doc(hidden)]
+#[must_use]
+pub fn stage<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> usize {
+    if certain(ray, aabb).is_some() { 0 } else { 2 }
 }
 
 /// Where the ray enters and leaves the box, and through which faces: [`slab::intersect`] with the verdict
