@@ -85,6 +85,7 @@ mod exact;
 pub mod overlap;
 pub mod ray;
 mod shape;
+pub mod spawn;
 mod vector;
 
 /// The examples of the README are tests.

@@ -197,7 +197,7 @@ pub trait Scalar:
 /// `(s, e)` with `s` the rounded sum and `e` its rounding error, NaN if `s` overflows (Knuth, The
 /// Art of Computer Programming, volume 2, 4.2.2).
 #[inline(always)]
-fn two_sum<N: Number>(a: N, b: N) -> (N, N) {
+pub(crate) fn two_sum<N: Number>(a: N, b: N) -> (N, N) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))

@@ -14,4 +14,5 @@ mod metamorphic;
 mod obvhs;
 mod overlap;
 mod properties;
+mod spawn;
 mod watertight;

@@ -19,7 +19,7 @@ pub(crate) mod interval;
 
 use glam::DVec3;
 
-use crate::vector::{Scalar, Vector};
+use crate::vector::{Number, Scalar, Vector, two_sum};
 
 /// The same vector in `f64`, exactly.
 #[inline]
@@ -40,9 +40,46 @@ pub(crate) fn difference_of_products<T: Scalar>(a: T, b: T, c: T, d: T) -> T {
     if ab == cd { ab_error - cd_error } else { ab - cd }
 }
 
+/// A number with the exact sign of a·b: of the dot product of the floats as they are, unless components
+/// are smaller than the largest by the whole range of exponents.
+#[inline]
+pub(crate) fn dot_sign<V: Vector>(a: V, b: V) -> V::Scalar {
+    let scaled = |v: V| {
+        let longest = v.abs().max_element();
+        v.times_powers(longest.normalizer(), longest.large_length())
+    };
+    let (a, b) = (scaled(a), scaled(b));
+    let dot = a.dot(b);
+    // Three roundings, u = EPSILON/2 each: 3u of the products' magnitudes, which are rounded too.
+    let bound = a.abs().dot(b.abs()) * (V::Scalar::EPSILON + V::Scalar::EPSILON);
+    if dot.abs() > bound { dot } else { expanded_dot(a, b) }
+}
+
+/// The largest term of the dot product as an expansion: a sum of floats that do not overlap, of which the
+/// largest that is not zero has the sign of the whole (J. R. Shewchuk, "Adaptive Precision
+/// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, GROW-EXPANSION).
+#[cold]
+fn expanded_dot<V: Vector>(a: V, b: V) -> V::Scalar {
+    let mut expansion = [V::Scalar::ZERO; 6];
+    for axis in 0..3 {
+        let (product, error) = a.component(axis).two_product(b.component(axis));
+        for (term, length) in [(error, 2 * axis), (product, 2 * axis + 1)] {
+            let mut sum = term;
+            for part in &mut expansion[..length] {
+                (sum, *part) = two_sum(sum, *part);
+            }
+            expansion[length] = sum;
+        }
+    }
+    let largest = expansion.into_iter().rfind(|part| *part != V::Scalar::ZERO);
+    largest.unwrap_or(V::Scalar::ZERO)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::difference_of_products;
+    use super::{difference_of_products, dot_sign};
+    use crate::vector::{Number, Scalar, Vector};
+    use glam::{DVec3, Vec3, Vec3A};
 
     #[test]
     fn sign_of_products_that_round_alike() {
@@ -55,5 +92,29 @@ mod tests {
         assert_eq!(a * b, 1.0);
         assert_eq!(difference_of_products(a, b, 1.0, 1.0), -f64::EPSILON * f64::EPSILON);
         assert_eq!(difference_of_products(3.0, 5.0, 5.0, 3.0), 0.0);
+    }
+
+    #[test]
+    fn sign_of_a_dot_product_that_rounds_to_zero_or_to_the_wrong_side() {
+        // (1 + ε)(1 − ε) − 1·1 + ε²·c = (c − 1)·ε²
+        fn check<V: Vector>(scale: f64) {
+            let (one, epsilon) = (V::Scalar::ONE, V::Scalar::EPSILON);
+            let scale = one.lit(scale);
+            for c in [0.0, 0.5, 1.0, 1.5] {
+                let a = V::new(one + epsilon, one, epsilon) * scale;
+                let b = V::new(one - epsilon, -one, epsilon * one.lit(c)) * scale;
+                for (a, b) in [(a, b), (a.yzx(), b.yzx()), (a.zxy(), b.zxy())] {
+                    let sign = dot_sign(a, b).partial_cmp(&V::Scalar::ZERO);
+                    assert_eq!(sign, c.partial_cmp(&1.0), "{c}");
+                    assert_eq!(dot_sign(-a, b), -dot_sign(a, b));
+                }
+            }
+            assert_eq!(dot_sign(V::ZERO, V::new(one, one, one)), V::Scalar::ZERO);
+        }
+        for scale in [1.0, 2.0_f64.powi(-90), 2.0_f64.powi(100)] {
+            check::<Vec3>(scale);
+            check::<Vec3A>(scale);
+            check::<DVec3>(scale * scale);
+        }
     }
 }
