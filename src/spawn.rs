@@ -60,19 +60,27 @@ impl<T: Scalar> TriangleHit<T> {
     /// The hit's point, and by how much it may be beside the triangle in each component.
     ///
     /// p = v0 + (u·(v1 − v0) + v·(v2 − v0)), which is in the triangle's plane for any u and v: their
-    /// errors do not count. With e and f the two products, ε = EPSILON = 2u, the error is the sum of
+    /// errors do not count. With e and f the two products and u = EPSILON/2, the error is the sum of
     ///
-    /// * γ(3)·(|e| + |f|) + u·|p|, where γ(3) ≈ 3u counts difference, product and sum, and u the last
-    ///   sum. (It takes 4u for γ(3), which makes up for its own rounding.)
-    /// * along the normal, as much as is missing for |n|·δ to reach the vertices' largest distance
-    ///   |n·(v_i − p)|, to which 8u·|n|·|v_i − p| are added (4u for its own rounding, 4u for a normal
-    ///   that is rounded again, as by a normalisation), and 24u·|n|·E, E the largest component of all
-    ///   v_i − p, for the watertight kernel: it may move vertices across the ray by 6u·E, and t by
-    ///   9u·E over the direction's largest component, which together is at most 23.1u·E along n.
+    /// * γ(3)·(|e| + |f|) + u·|p|: difference, product and sum, then the last sum. (4u stand for γ(3), and
+    ///   make up for the bound's own rounding.)
+    /// * along the normal n, what is missing for |n|·δ to reach the largest of |n·(v_i − p)| + 8u·|n|·|v_i − p|
+    ///   (4u for its own rounding, 4u for a normal that is rounded again, by a normalisation), and as far again
+    ///   as the watertight kernel may be wrong.
     ///
-    /// So a triangle as good as flat, whose normal is all rounding, gets a large error; one whose
-    /// normal over- or underflows an error that covers the whole of it. Where an edge is beyond the
-    /// largest float the error is infinite.
+    /// That kernel's distance from the plane, with E the largest component of the vertices' distances from the
+    /// origin, l_i their lengths and N the normal's length, is off by 24u·E + 9u·l_0·l_1·l_2/N at most. It sees each
+    /// vertex moved across the ray by 6u·E, two components of a unit normal being at most √2; the five
+    /// roundings from the edge functions to t shift it by 5u·E over the direction's largest component, at least
+    /// 1/√3 of its length; and the rounded products of an edge function are, in sum, at most 3·l_j·l_k (once √3 for each shear), times
+    /// a depth of l_i, for three edges. More than 4·E are never needed, from where the whole triangle is behind the ray.
+    ///
+    /// A triangle as good as flat, whose normal is all rounding, so gets a large error; one whose normal over- or
+    /// underflows gets an error that covers the whole of it. Where an edge is beyond the largest float the error is infinite.
+    ///
+    /// **How large:** [`offset_origin`] then moves p by 1.3 ulps of the vertices' largest coordinate in the
+    /// median (at most 4) where the triangle is a hundredth as large as its distance from zero, 3 (16) at a tenth, 11 (32) at 1, for triangles
+    /// not narrower than 1 to 8. An eighth of the error would not do.
     ///
     /// For a hit on another triangle the result means nothing.
     ///
@@ -103,25 +111,32 @@ impl<T: Scalar> TriangleHit<T> {
 
         let vertices = [v0 - point, v1 - point, v2 - point];
         let extent = vertices[0].abs().max(vertices[1].abs()).max(vertices[2].abs());
-        let reach = extent.max_element();
+        // What the kernel sees from the origin is farther by its own distance, rounding first.
+        let slip = point.abs().max_element() * (epsilon * epsilon.lit(4.0));
+        let reach = extent.max_element() + slip;
         let moved = reach * (epsilon * epsilon.lit(12.0));
         let normal = triangle.normal();
         let Some(unit) = normalized(normal) else {
             return (point, (extent + V::splat(moved)) * margin::<T>() + evaluation);
         };
+        let unit2 = unit.dot(unit);
+        let length = unit2.sqrt();
         let distance = |vertex: V| {
             let rounding = unit.abs().dot(vertex.abs()) * (epsilon * epsilon.lit(4.0));
             unit.dot(vertex).abs() + rounding
         };
         let farthest = vertices.map(distance).into_iter().fold(T::ZERO, Number::max);
-        let longest = vertices.map(Vector::length).into_iter().fold(T::ZERO, Number::max);
-        let weights = longest / normal.length() * longest * longest * (epsilon * epsilon.lit(6.5));
-        let weights =
-            if weights * epsilon.lit(8.0) < reach { weights } else { reach * epsilon.lit(4.0) };
+        let sixteenth = reach * epsilon.lit(1.0 / 16.0);
+        let [a, b, c] = vertices.map(|vertex| vertex.length() + slip + sixteenth);
+        let weights = a / normal.length() * b * c * (epsilon * epsilon.lit(4.5));
+        let kernel = moved + weights;
+        let kernel = if kernel * length + farthest < sixteenth * length {
+            kernel
+        } else {
+            reach * epsilon.lit(4.0)
+        };
 
-        let unit2 = unit.dot(unit);
-        let kernel = (moved + weights) * unit2.sqrt();
-        let spread = (farthest + kernel + underflow()) * margin::<T>();
+        let spread = (farthest + kernel * length + underflow()) * margin::<T>();
         let missing = (spread - unit.abs().dot(evaluation)).max(T::ZERO);
         (point, evaluation + unit.abs() * (missing / unit2 * margin::<T>()))
     }
@@ -258,7 +273,8 @@ impl<T: Scalar> PlaneHit<T> {
         let Some(unit) = normalized(plane.normal) else {
             return Some((unprojected, V::INFINITY));
         };
-        let offset = plane.offset * plane.normal.abs().max_element().normalizer();
+        let scale = plane.normal.abs().max_element().normalizer();
+        let offset = plane.offset * scale;
         let above = |point: V| unit.dot(point) - offset;
         let unit2 = unit.dot(unit);
         let point = unprojected - unit * (above(unprojected) / unit2);
@@ -266,7 +282,10 @@ impl<T: Scalar> PlaneHit<T> {
             return Some((unprojected, V::INFINITY));
         }
         let magnitude = unit.abs().dot(point.abs()) + offset.abs();
-        let distance = above(point).abs() + magnitude * (T::EPSILON * offset.lit(5.0));
+        // The kernel's products are not scaled: one with a small normal may underflow.
+        let distance = above(point).abs()
+            + magnitude * (T::EPSILON * offset.lit(5.0))
+            + underflow::<T>() * scale;
         let error = unit.abs() * (distance / unit2 * margin::<T>()) + V::splat(underflow());
         Some((point, error))
     }
@@ -298,14 +317,20 @@ impl<T: Scalar> PlaneHit<T> {
 #[must_use]
 pub fn offset_origin<V: Vector>(point: V, error: V, normal: V, direction: V) -> V {
     let (zero, one, epsilon) = (V::Scalar::ZERO, V::Scalar::ONE, V::Scalar::EPSILON);
-    // A NaN counts as the largest number, which times zero is zero.
-    let error = error.map(|error| error.abs().min(V::Scalar::MAX));
+    // A NaN counts as infinity.
+    let error = error.map(|error| error.abs().min(V::Scalar::INFINITY));
     let least = point.abs().max_element() * (epsilon * epsilon) + V::Scalar::MIN_POSITIVE;
     let (sides, steps) = match normalized(normal) {
         Some(unit) => {
             let side = if dot_sign(normal, direction) < zero { -one } else { one };
-            // Ten roundings, with that of the step below, make up for less than the margin.
-            let k = unit.abs().dot(error) / unit.dot(unit) * margin::<V::Scalar>() + least;
+            let weighted = |axis: usize| {
+                let weight = unit.component(axis).abs();
+                // An infinite error across the normal does not matter.
+                if zero < weight { weight * error.component(axis) } else { zero }
+            };
+            let reach = weighted(0) + weighted(1) + weighted(2);
+            // With the step below nine roundings, for which the margin makes up.
+            let k = reach / unit.dot(unit) * margin::<V::Scalar>() + least;
             (unit * side, unit.abs() * k)
         }
         None => (direction, error + V::splat(least)),
