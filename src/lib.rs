@@ -47,7 +47,7 @@
 //! # Conventions
 //!
 //! * All sets are closed: a ray along a face, through an edge or at a vertex hits. So is the range of
-//!   t: a ray that starts on a surface hits it at t = 0 (see [`Ray::after`]), and with `t_max` set to
+//!   t: a ray that starts on a surface hits it at t = 0 (see [`spawn`] and [`Ray::after`]), and with `t_max` set to
 //!   the closest t so far a later shape wins a tie (compare with `<`, or use [`Ray::before`]).
 //! * Shapes have two sides. [`ray::triangle::TriangleHit::front`] tells which one; to cull, filter on it.
 //! * Directions have any length but zero, and t counts in units of it.

@@ -27,26 +27,27 @@
 //!
 //! # What is promised
 //!
-//! Let p be the point, δ its error, n the normal and |v| a vector's magnitudes, component by component.
-//! For the points x of the surface, in exact arithmetic,
+//! Let p be the point, δ its error, n the normal, and |v| the vector of the magnitudes of v's
+//! components. For the points x of the surface, in exact arithmetic,
 //!
 //! * some x is within δ of p in each component;
-//! * n·(x − p) ≤ |n|·δ: no part of the surface is farther from p along the normal. (For a sphere, a box
-//!   and a plane, whose inside is below the surface, of the outward normal.)
+//! * |n·(x − p)| ≤ |n|·δ: no part of a triangle or a plane is farther from p along the normal. (Of a
+//!   sphere or a box no part is farther outward; inward there is the rest of it.)
 //!
-//! [`offset_origin`] puts the origin o at n·(o − p) > |n|·δ for a direction d with n·d ≥ 0, a sign that it
-//! decides exactly. So n·(o + t·d) > n·x for all t ≥ 0: the ray hits none of the surface, however far it
-//! goes and however flatly. Into a sphere the origin is strictly inside, and the ray hits but the far side; into
-//! a box it is behind the face. (A point on an edge of the box is on another face as well.)
+//! [`offset_origin`] puts the origin o where n·(o − p) > |n|·δ, for a direction d with n·d ≥ 0, a sign
+//! that it decides exactly. So n·(o + t·d) > n·x for all t ≥ 0: the ray hits none of the surface, however
+//! far it goes and however flatly; and likewise on the other side. Into a sphere the origin is strictly
+//! inside, and the ray hits but the far side; into a box it is behind the face. (A point on an edge of
+//! the box is on another face as well, and the ray may enter by that.)
 //!
-//! The errors leave as much room again as the recommended kernels need for their own rounding: the
-//! watertight, robust and slab kernels do not hit the surface either; nor does the plane's, unless the
-//! ray is parallel to the plane as far as that kernel can tell. Kernels of other names may, where
-//! their own error bounds are larger.
+//! The errors leave room for the rounding of the recommended kernels: the watertight, robust and slab
+//! kernels do not hit the surface either, nor does the conservative one; nor does the plane's, unless it
+//! rounds n·d to the other sign. Other kernels may, where their own error bounds are larger.
 //!
 //! After M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, 3.9.5,
-//! "Robust Spawned Ray Origins". There, errors are bounded beforehand, and a flat ray is on its own; here
-//! what can be computed of them is computed, and the tilt of a rounded normal is one of them.
+//! "Robust Spawned Ray Origins". There, errors are bounded in advance, and the side of a flat ray is
+//! that of a rounded normal; here what can be computed of the errors is computed, the tilt of the
+//! normal with it.
 
 use crate::exact::dot_sign;
 use crate::ray::aabb::AabbHit;
@@ -62,25 +63,28 @@ impl<T: Scalar> TriangleHit<T> {
     /// p = v0 + (u·(v1 − v0) + v·(v2 − v0)), which is in the triangle's plane for any u and v: their
     /// errors do not count. With e and f the two products and u = EPSILON/2, the error is the sum of
     ///
-    /// * γ(3)·(|e| + |f|) + u·|p|: difference, product and sum, then the last sum. (4u stand for γ(3), and
-    ///   make up for the bound's own rounding.)
-    /// * along the normal n, what is missing for |n|·δ to reach the largest of |n·(v_i − p)| + 8u·|n|·|v_i − p|
-    ///   (4u for its own rounding, 4u for a normal that is rounded again, by a normalisation), and as far again
-    ///   as the watertight kernel may be wrong.
+    /// * γ(3)·(|e| + |f|) + u·|p|: a difference, a product and a sum, then the last sum. (4u stand for
+    ///   γ(3), and make up for the bound's own rounding.)
+    /// * along the normal n, what |n|·δ lacks of the largest of |n·(v_i − p)| + 8u·|n|·|v_i − p| (4u for
+    ///   its own rounding, 4u for a normal that is rounded again, by a normalisation) and of the
+    ///   distance by which the watertight kernel may be wrong.
     ///
-    /// That kernel's distance from the plane, with E the largest component of the vertices' distances from the
-    /// origin, l_i their lengths and N the normal's length, is off by 24u·E + 9u·l_0·l_1·l_2/N at most. It sees each
-    /// vertex moved across the ray by 6u·E, two components of a unit normal being at most √2; the five
-    /// roundings from the edge functions to t shift it by 5u·E over the direction's largest component, at least
-    /// 1/√3 of its length; and the rounded products of an edge function are, in sum, at most 3·l_j·l_k (once √3 for each shear), times
-    /// a depth of l_i, for three edges. More than 4·E are never needed, from where the whole triangle is behind the ray.
+    /// The latter is at most 24u·E + 9u·l₀·l₁·l₂/N, E the largest component of the vertices as seen from
+    /// the ray's origin, l their lengths, N the length of n. That kernel sees each vertex moved across the
+    /// ray by 6u·E on two axes, and a unit normal has at most √2 on two axes. Five roundings from
+    /// the edge functions to t add 5u·E over the direction's largest component, which has at least 1/√3 of
+    /// its length. And the rounded products of an edge function are together at most 3·l_j·l_k (the shear
+    /// lengthens each by √3 at most), times the depth of the third vertex; there are three. More than 4·E
+    /// is never needed: from there the whole triangle is behind the ray.
     ///
-    /// A triangle as good as flat, whose normal is all rounding, so gets a large error; one whose normal over- or
-    /// underflows gets an error that covers the whole of it. Where an edge is beyond the largest float the error is infinite.
+    /// So a triangle as good as flat, of which the normal is all rounding, gets a large error, and one
+    /// whose normal over- or underflows an error that covers the whole of it. Where an edge is beyond the
+    /// largest float the error is infinite.
     ///
-    /// **How large:** [`offset_origin`] then moves p by 1.3 ulps of the vertices' largest coordinate in the
-    /// median (at most 4) where the triangle is a hundredth as large as its distance from zero, 3 (16) at a tenth, 11 (32) at 1, for triangles
-    /// not narrower than 1 to 8. An eighth of the error would not do.
+    /// **How large:** [`offset_origin`] moves p by 1.3 ulps of the vertices' largest coordinate, at most 4,
+    /// where the triangle is a hundredth as large as its distance from zero; by 2.6, at most 16, where it
+    /// is a tenth; by 11, at most 32, where it is as large: medians, for triangles not narrower than 1
+    /// to 8. An eighth of the error would be too little.
     ///
     /// For a hit on another triangle the result means nothing.
     ///
@@ -111,7 +115,8 @@ impl<T: Scalar> TriangleHit<T> {
 
         let vertices = [v0 - point, v1 - point, v2 - point];
         let extent = vertices[0].abs().max(vertices[1].abs()).max(vertices[2].abs());
-        // What the kernel sees from the origin is farther by its own distance, rounding first.
+        // The origin will be off the point: by the rounding of both, and by less than a sixteenth of the
+        // triangle, unless the bound is the one that needs no such limit.
         let slip = point.abs().max_element() * (epsilon * epsilon.lit(4.0));
         let reach = extent.max_element() + slip;
         let moved = reach * (epsilon * epsilon.lit(12.0));
@@ -155,8 +160,9 @@ impl<T: Scalar> SphereHit<T> {
     /// the centre from r within 5u·r. The last term is for rays to the inside: rounding moves their
     /// origin by up to 5.2u·P across m, which takes it (5.2u·P)²/2r outward.
     ///
-    /// A sphere that floats cannot tell from a point (r < 32u·P, or a subnormal r) gets an error that covers the
-    /// whole of it: a ray to the inside starts behind it.
+    /// A sphere that floats cannot tell from a point (r < 32u·P, or a subnormal r) gets an error that
+    /// covers the whole of it: a ray to the inside starts behind it. An eighth of the error would be too
+    /// little.
     ///
     /// For a hit on another sphere the result means nothing.
     ///
@@ -245,9 +251,10 @@ impl<T: Scalar> PlaneHit<T> {
     /// What remains can be computed. With s = n·p − offset, B = Σ|n_i·p_i| + |offset| and u = EPSILON/2,
     /// the plane's nearest point is off by |s|/|n| along the normal, and the error is
     ///
-    /// δ = (|s| + 10u·B)·|n_i|/n²:
+    /// δ = (|s| + 10u·B)·|n_i|/n²
     ///
-    /// s is off by at most 4u·B, and so is what the plane's kernel has in its place.
+    /// s is off by at most 4u·B, and so is what the plane's kernel has in its place. A sixteenth of the
+    /// error would be too little.
     ///
     /// A point beyond the largest float is infinite, or has an infinite error. For a hit on another plane
     /// the result means nothing.
@@ -352,15 +359,16 @@ pub fn offset_origin<V: Vector>(point: V, error: V, normal: V, direction: V) -> 
 
 /// The segment between two surfaces that hits neither of its ends: a shadow ray, t in [0, 1].
 ///
-/// Each end is moved off its surface by [`offset_origin`], to the side on which the other end is.
-/// The range is closed, so the far end has to clear b's surface not only by b's error, but also by what
-/// the way there adds: u·|d| for the rounding of the direction d, u = EPSILON/2, and what the kernels may be wrong by at that
-/// distance, 29u·L, L the direction's largest component. (The watertight kernel's 24u·L is derived at
-/// [`TriangleHit::point_and_error`]; the robust one's is 16u·|f|, |f| ≤ √3·L.) So 32u·L are added to b's
-/// error.
+/// Each end is moved off its surface by [`offset_origin`], to the side on which the other end is. The
+/// range is closed, so the far end has to clear b's surface by more than b's error: by the
+/// rounding of the direction d, u·|d| with u = EPSILON/2, and by what the kernels may be wrong at that
+/// distance, up to 28u·L, L the direction's largest component. (The watertight kernel's 24u·L is derived
+/// at [`TriangleHit::point_and_error`]; the robust one's is 16u·|d|, |d| ≤ √3·L.) So 32u·L are added to
+/// b's error.
 ///
-/// Where a point is in the plane of the other's surface up to their errors, both ends are put on the same
-/// side of it, as far as they can be: if the surfaces meet there at an angle, one may still be hit.
+/// Where each point is in the plane of the other's surface, up to their errors, both ends come to the same
+/// side of it. Where only one is, as at the seam of a wall and a floor, the segment may hit the surface
+/// of the other there.
 ///
 /// Bad input is treated as by [`offset_origin`].
 ///
@@ -388,11 +396,11 @@ pub fn segment<V: Vector>(a: V, a_error: V, a_normal: V, b: V, b_error: V, b_nor
 
 /// The image of a point under an affine map, and by how much it may be off in each component.
 ///
-/// p′ = A·p + c and δ′ = (1 + γ(4))·|A|·δ + γ(3)·|A|·|p| + u·|p′|, |A| the matrix of the magnitudes,
-/// γ(3) ≈ 3u for a product and two sums, u = EPSILON/2 for the last sum: the exact image of every point
-/// within δ of p is within δ′ of p′. (It takes 4u for γ(3), and a little more than either term: that makes up for its own
-/// rounding, and for underflow.) The normal n becomes A⁻ᵀ·n; what the errors promise for n and the surface holds
-/// for their images, but for the rounding of that normal.
+/// p′ = A·p + c and δ′ = |A|·δ + γ(3)·|A|·|p| + u·|p′|, |A| the matrix of the magnitudes: three roundings
+/// for a product and two sums, u = EPSILON/2 for the last. (4u stand for γ(3), and each term is a little
+/// larger, which makes up for its own rounding and for underflow.) The exact image of every point within
+/// δ of p is within δ′ of p′. The normal n becomes A⁻ᵀ·n, and n′·(x′ − p′) ≤ |n′|·δ′ for the image of
+/// the surface, as far as that normal is exact.
 ///
 /// Where a sum is beyond the largest float the image is infinite or NaN, and the error infinite or NaN.
 ///

@@ -91,7 +91,7 @@ impl Tally {
     fn count(&mut self, hit: bool, exactly: impl FnOnce() -> bool) {
         self.rays += 1;
         self.hits += u32::from(hit);
-        if self.rays % SAMPLE == 0 {
+        if self.rays.is_multiple_of(SAMPLE) {
             self.exact_rays += 1;
             self.exact_hits += u32::from(exactly());
         }
@@ -350,16 +350,19 @@ fn uniform(rng: &mut fastrand::Rng) -> [f64; 3] {
     [(); 3].map(|()| 2.0 * rng.f64() - 1.0)
 }
 
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
 /// In double precision, where all of it is exact but for 2⁻⁵⁰ of the magnitudes that the single-precision bounds take
 /// 2⁻²⁴ of, and more: nothing to allow for but the triangle's tangential bound, which is met but for its last bits.
 #[test]
 fn errors_are_bounds() {
-    let sub = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| a[i] - b[i]) };
-    let dot = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|i| a[i] * b[i]).sum() };
-    fn check<V: Vector>(
-        sub: impl Fn([f64; 3], [f64; 3]) -> [f64; 3],
-        dot: impl Fn([f64; 3], [f64; 3]) -> f64,
-    ) {
+    fn check<V: Vector>() {
         let mut rng = fastrand::Rng::with_seed(SEED + 2);
         let mut counts = [0; 3];
         for _ in 0..100_000 {
@@ -417,8 +420,8 @@ fn errors_are_bounds() {
         println!("{:<6} {counts:?} triangles, spheres, planes", name::<V>());
         assert!(counts.iter().all(|&n| n > 30_000), "{counts:?}");
     }
-    check::<Vec3>(sub, dot);
-    check::<Vec3A>(sub, dot);
+    check::<Vec3>();
+    check::<Vec3A>();
 }
 
 /// Points within the error, its corners among them, have images within the image's error. In double precision, as above:
@@ -510,6 +513,16 @@ impl<V: Vector> Shape<V> {
         }
     }
 
+    /// Whether a way out of the surface leads off it: not into the inside, and not so flat that its end is in the plane
+    /// of the surface as far as single precision can tell, with 32 roundings and the offsets of both ends.
+    fn is_clear(&self, normal: V, way: V) -> bool {
+        let products = array(normal.scaled(way));
+        let magnitude: f64 = products.iter().map(|x| x.abs()).sum();
+        let is_flat = products.iter().sum::<f64>().abs() < 1e-4 * magnitude;
+        let has_inside = matches!(self, Self::Sphere(_) | Self::Box(_));
+        !(is_flat || has_inside && points_inward(normal, way))
+    }
+
     fn is_hit(&self, ray: &Ray<V>) -> bool {
         match self {
             Self::Triangle(shape) => ray.hits(shape),
@@ -545,18 +558,7 @@ fn segments_hit_neither_end_but_what_is_between() {
                 continue;
             };
             let Some([end, end_error, end_normal]) = b.surface(&mut rng, start) else { continue };
-            let sees = |shape: &Shape<V>, normal: V, out: V| {
-                matches!(shape, Shape::Triangle(_) | Shape::Plane(_)) || !points_inward(normal, out)
-            };
-            let clear = |shape: &Shape<V>, normal: V, out: V| {
-                // Not so flat that the other end is in the plane of this one, as far as floats can tell.
-                let (n, d) = (array(normal), array(out));
-                let products = (0..3).map(|i| n[i] * d[i]);
-                let flat = products.clone().sum::<f64>().abs()
-                    < 1e-4 * products.map(f64::abs).sum::<f64>();
-                sees(shape, normal, out) && !flat
-            };
-            if !clear(&a, start_normal, end - start) || !clear(&b, end_normal, start - end) {
+            if !a.is_clear(start_normal, end - start) || !b.is_clear(end_normal, start - end) {
                 continue;
             }
             let shadow =

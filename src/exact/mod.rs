@@ -44,15 +44,10 @@ pub(crate) fn difference_of_products<T: Scalar>(a: T, b: T, c: T, d: T) -> T {
 /// are smaller than the largest by the whole range of exponents.
 #[inline]
 pub(crate) fn dot_sign<V: Vector>(a: V, b: V) -> V::Scalar {
-    let scaled = |v: V| {
-        let longest = v.abs().max_element();
-        v.times_powers(longest.normalizer(), longest.large_length())
-    };
-    let (a, b) = (scaled(a), scaled(b));
     let dot = a.dot(b);
     // Three roundings, u = EPSILON/2 each: 3u of the products' magnitudes, which are rounded too.
     let bound = a.abs().dot(b.abs()) * (V::Scalar::EPSILON + V::Scalar::EPSILON);
-    if dot.abs() > bound { dot } else { expanded_dot(a, b) }
+    if dot.abs() > bound && bound.is_mid_range() { dot } else { expanded_dot(a, b) }
 }
 
 /// The largest term of the dot product as an expansion: a sum of floats that do not overlap, of which the
@@ -60,6 +55,12 @@ pub(crate) fn dot_sign<V: Vector>(a: V, b: V) -> V::Scalar {
 /// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, GROW-EXPANSION).
 #[cold]
 fn expanded_dot<V: Vector>(a: V, b: V) -> V::Scalar {
+    // By powers of two to a length at which the errors of products do not underflow.
+    let scaled = |v: V| {
+        let longest = v.abs().max_element();
+        v.times_powers(longest.normalizer(), longest.large_length())
+    };
+    let (a, b) = (scaled(a), scaled(b));
     let mut expansion = [V::Scalar::ZERO; 6];
     for axis in 0..3 {
         let (product, error) = a.component(axis).two_product(b.component(axis));
