@@ -24,7 +24,9 @@ pub(crate) enum Shape {
 pub(crate) struct ShapeHit {
     /// The ray's parameter.
     pub(crate) t: f32,
-    /// The outward normal, of length 1.
+    /// The point, and by how much it may be off.
+    pub(crate) point_and_error: (Vec3A, Vec3A),
+    /// The outward normal, of any length.
     pub(crate) normal: Vec3A,
     /// Whether the ray comes from inside.
     pub(crate) leaving: bool,
@@ -36,26 +38,44 @@ impl Shape {
         match self {
             Self::Sphere(sphere) => {
                 let hit = ray.intersect(sphere)?;
+                let point_and_error = hit.point_and_error(ray, sphere);
                 Some(ShapeHit {
                     t: hit.t,
-                    normal: sphere.normal_at(ray.at(hit.t)),
+                    point_and_error,
+                    normal: sphere.normal_at(point_and_error.0),
                     leaving: hit.leaving,
                 })
             }
             Self::Box(aabb) => {
                 let hit = ray.intersect(aabb)?;
                 let (t, face) = hit.surface()?;
-                Some(ShapeHit { t, normal: face.normal(), leaving: hit.enter_face.is_none() })
-            }
-            Self::Plane(plane) => match ray.intersect(plane)? {
-                PlaneHit::At(t) => Some(ShapeHit {
+                Some(ShapeHit {
                     t,
-                    normal: plane.normal.normalize(),
-                    leaving: plane.normal.dot(ray.direction) > 0.0,
-                }),
+                    point_and_error: hit.point_and_error(ray, aabb)?,
+                    normal: face.normal(),
+                    leaving: hit.enter_face.is_none(),
+                })
+            }
+            Self::Plane(plane) => {
+                let hit = ray.intersect(plane)?;
                 // Seen edge-on there is nothing to see.
-                PlaneHit::Contained => None,
-            },
+                let PlaneHit::At(t) = hit else { return None };
+                Some(ShapeHit {
+                    t,
+                    point_and_error: hit.point_and_error(ray, plane)?,
+                    normal: plane.normal,
+                    leaving: plane.normal.dot(ray.direction) > 0.0,
+                })
+            }
+        }
+    }
+
+    /// Whether there is a hit in the ray's range.
+    pub(crate) fn hits(&self, ray: &Ray<Vec3A>) -> bool {
+        match self {
+            Self::Sphere(sphere) => ray.hits(sphere),
+            Self::Box(aabb) => ray.intersect(aabb).is_some_and(|hit| hit.surface().is_some()),
+            Self::Plane(plane) => matches!(ray.intersect(plane), Some(PlaneHit::At(_))),
         }
     }
 

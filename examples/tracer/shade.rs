@@ -50,8 +50,6 @@ pub(crate) struct Tracer<'a> {
     accelerator: &'a dyn Accelerator,
     /// How many times a ray may be reflected or refracted.
     max_depth: u32,
-    /// The scene's greatest coordinate.
-    extent: f32,
 }
 
 /// A ray's place in the recursion.
@@ -66,7 +64,7 @@ struct Branch {
 impl<'a> Tracer<'a> {
     /// Prepares to follow rays through `scene`.
     pub(crate) fn new(scene: &'a Scene, accelerator: &'a dyn Accelerator, max_depth: u32) -> Self {
-        Self { scene, accelerator, max_depth, extent: scene.extent() }
+        Self { scene, accelerator, max_depth }
     }
 
     /// The light that arrives along a ray from the eye.
@@ -107,8 +105,7 @@ impl<'a> Tracer<'a> {
             color += self.reflected(&surface, ray.direction, reflectance, branch, counts);
             if let (Some(refraction), Some(branch)) = (refraction, branch.next(1.0 - reflectance)) {
                 counts.refraction += 1;
-                let from = self.spawn(surface.point, -surface.geometric_normal);
-                let ray = Ray::new(from, refraction.direction);
+                let ray = surface.spawn(refraction.direction);
                 color += (1.0 - reflectance) * self.radiance(&ray, branch, counts);
             }
         }
@@ -128,8 +125,7 @@ impl<'a> Tracer<'a> {
             return Color::ZERO;
         };
         counts.reflection += 1;
-        let from = self.spawn(surface.point, surface.geometric_normal);
-        let ray = Ray::new(from, reflect(direction, surface.normal));
+        let ray = surface.spawn(reflect(direction, surface.normal));
         share * self.radiance(&ray, branch, counts)
     }
 
@@ -145,7 +141,7 @@ impl<'a> Tracer<'a> {
         let material = surface.material;
         let scattered = material.paint.at(surface.point) * (material.diffuse * share);
         let mut color = scattered * self.scene.ambient(surface.normal);
-        let from = self.spawn(surface.shadow_point, surface.geometric_normal);
+        let from = surface.shadow_origin();
         let mirrored = reflect(direction, surface.normal);
         for light in &self.scene.lights {
             let shadow = Ray::segment(from, light.position);
@@ -162,18 +158,6 @@ impl<'a> Tracer<'a> {
             }
         }
         color
-    }
-
-    /// Where a ray starts that leaves the surface at `point` to the side of `normal`: off the
-    /// surface, so as not to hit it again.
-    ///
-    /// The distance is that of the hit point's rounding errors, guessed from the size of the scene
-    /// with a lot to spare. It is the one tolerance of this program, and to be replaced by error
-    /// bounds that the hits carry.
-    fn spawn(&self, point: Vec3A, normal: Vec3A) -> Vec3A {
-        const OFFSET: f32 = 128.0 * f32::EPSILON;
-        let size = self.extent.max(point.abs().max_element());
-        point + normal * (OFFSET * size)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The point that a ray sees, and whether a point sees a light.
 
-use isect::Ray;
 use isect::glam::Vec3A;
+use isect::{Ray, spawn};
 
 use crate::accelerator::{Accelerator, MeshHit};
 use crate::mesh::interpolated;
@@ -16,9 +16,11 @@ const THROUGH_TRANSPARENT: f32 = 0.75;
 pub(crate) struct Surface<'a> {
     /// The point itself.
     pub(crate) point: Vec3A,
+    /// By how much it may be off the surface, in each component.
+    pub(crate) error: Vec3A,
     /// The normal to shade with, of length 1, on the ray's side.
     pub(crate) normal: Vec3A,
-    /// The normal of the surface as it is, of length 1, on the ray's side.
+    /// The normal of the surface as it is, of any length, on the ray's side.
     pub(crate) geometric_normal: Vec3A,
     /// Where shadow rays start: the point, or above it where a flat triangle stands for a round
     /// surface.
@@ -48,16 +50,30 @@ impl<'a> Surface<'a> {
             return Some(Self::of_mesh(scene, &ray, &hit));
         }
         let (hit, material) = closest?;
-        Some(Self::of_shape(&ray, &hit, material))
+        Some(Self::of_shape(&hit, material))
     }
 
-    fn of_shape(ray: &Ray<Vec3A>, hit: &ShapeHit, material: &'a Material) -> Self {
-        let point = ray.at(hit.t);
-        let normal = if hit.leaving { -hit.normal } else { hit.normal };
+    /// The ray that leaves the surface in `direction`, to either side.
+    pub(crate) fn spawn(&self, direction: Vec3A) -> Ray<Vec3A> {
+        let Self { point, error, geometric_normal, .. } = *self;
+        Ray::new(spawn::offset_origin(point, error, geometric_normal, direction), direction)
+    }
+
+    /// Where shadow rays start: on this side even if the light is on the other, so that they meet the
+    /// surface itself.
+    pub(crate) fn shadow_origin(&self) -> Vec3A {
+        let Self { shadow_point, error, geometric_normal, .. } = *self;
+        spawn::offset_origin(shadow_point, error, geometric_normal, geometric_normal)
+    }
+
+    fn of_shape(hit: &ShapeHit, material: &'a Material) -> Self {
+        let (point, error) = hit.point_and_error;
+        let geometric_normal = if hit.leaving { -hit.normal } else { hit.normal };
         Self {
             point,
-            normal,
-            geometric_normal: normal,
+            error,
+            normal: geometric_normal.normalize(),
+            geometric_normal,
             shadow_point: point,
             leaving: hit.leaving,
             material,
@@ -67,9 +83,9 @@ impl<'a> Surface<'a> {
     fn of_mesh(scene: &'a Scene, ray: &Ray<Vec3A>, &MeshHit { triangle, hit }: &MeshHit) -> Self {
         let corners = scene.mesh.triangle(triangle);
         let towards_ray = if hit.front { 1.0 } else { -1.0 };
-        let geometric_normal = corners.normal().normalize_or_zero() * towards_ray;
+        let geometric_normal = corners.normal() * towards_ray;
         let normals = scene.mesh.normals(triangle).map(|n| n * towards_ray);
-        let point = corners.at(hit.u, hit.v);
+        let (point, error) = hit.point_and_error(&corners);
 
         let mut normal = interpolated(&hit, normals);
         let mut shadow_point = point;
@@ -84,10 +100,11 @@ impl<'a> Surface<'a> {
                 hit.interpolate(lift(a, normals[0]), lift(b, normals[1]), lift(c, normals[2]));
         } else {
             // On a silhouette the interpolated normal may look away from the ray.
-            normal = geometric_normal;
+            normal = geometric_normal.normalize_or_zero();
         }
         Self {
             point,
+            error,
             normal,
             geometric_normal,
             shadow_point,
@@ -106,7 +123,7 @@ pub(crate) fn transmittance(
 ) -> f32 {
     let mut share = 1.0;
     for (shape, material) in &scene.shapes {
-        if shape.intersect(shadow).is_some() {
+        if shape.hits(shadow) {
             if material.transparent.is_none() {
                 return 0.0;
             }
