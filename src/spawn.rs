@@ -385,9 +385,8 @@ pub fn offset_origin<V: Vector>(point: V, error: V, normal: V, direction: V) -> 
 /// ```
 #[must_use]
 pub fn segment<V: Vector>(a: V, a_error: V, a_normal: V, b: V, b_error: V, b_normal: V) -> Ray<V> {
-    // The far end, only to see on which side of a it will be.
-    let to = offset_origin(b, b_error, b_normal, a - b);
-    let from = offset_origin(a, a_error, a_normal, to - a);
+    let from = offset_origin(a, a_error, a_normal, b - a);
+    // Seen from there, not from a: over flat ground the sides may differ.
     let back = from - b;
     let way = back.abs().max_element() * (V::Scalar::EPSILON * V::Scalar::ONE.lit(16.0));
     let to = offset_origin(b, b_error + V::splat(way), b_normal, back);
