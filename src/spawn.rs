@@ -304,9 +304,9 @@ impl<T: Scalar> PlaneHit<T> {
 /// which n·d points. That sign is decided exactly; of zero, either side will do. The normal is of any
 /// length and either side; the error is that of `point_and_error`.
 ///
-/// **How far:** at most |n|·δ/|n| along the normal, plus two ulps in each component: those of a
-/// coordinate near zero are taken to be at least EPSILON²·P + MIN_POSITIVE, P the point's largest
-/// coordinate, so that no t underflows to zero on the way back.
+/// **How far:** by |n|·δ over the length of n along the normal, by 1 or 2 ulps more in each component, and
+/// by EPSILON²·P + MIN_POSITIVE, P the point's largest coordinate, so that from a coordinate of zero no t
+/// underflows to zero on the way back.
 ///
 /// Of a zero, infinite or NaN normal nothing can be said: the origin is then put outside of the box p ± δ,
 /// on the sides to which the direction points. An error that is infinite or NaN puts it at infinity, and
