@@ -7,7 +7,7 @@ use isect::ray::plane::{self, PlaneHit};
 use isect::{Plane, Scalar, Vector};
 
 use crate::support::bounds::{Bound, unit_roundoff};
-use crate::support::kernels::{TriangleKernel, sphere_kernels, triangle_kernels};
+use crate::support::kernels::{SphereKernel, TriangleKernel, sphere_kernels, triangle_kernels};
 use crate::support::{
     aabb, for_every_vector, generators, name, oracle, ray, scalar, sphere, triangle, vector,
 };
@@ -99,21 +99,80 @@ fn in_exponent_range<V: Vector>(ray: &oracle::Ray, vertices: &Vertices, bound: &
     bound.t.is_finite() && smallest > tiny
 }
 
-/// The hit point lies on a sphere of which the radius is wrong by the stated error; a missed line does not cross one.
+/// A sphere's radius as far off as a kernel's documentation allows, either way.
+struct Shell {
+    center: [f64; 3],
+    /// Zero or less where the sphere may be lost entirely.
+    inner: f64,
+    outer: f64,
+}
+
+impl Shell {
+    fn new<V: Vector>(
+        kernel: &SphereKernel<V>,
+        ray: &oracle::Ray,
+        center: [f64; 3],
+        radius: f64,
+    ) -> Self {
+        let f = (0..3).map(|i| (center[i] - ray.origin[i]).powi(2)).sum::<f64>().sqrt();
+        let (square, linear) = (kernel.error)(unit_roundoff::<V::Scalar>(), f, radius);
+        let (inner, outer) = (radius * radius - square, radius * radius + square);
+        // The bound itself is rounded: f² and its root, r², the sum and its root, the last sum.
+        let rounding = 4.0 * f64::EPSILON * radius;
+        Self {
+            center,
+            inner: inner.max(0.0).sqrt() - linear - rounding,
+            outer: outer.sqrt() + linear + rounding,
+        }
+    }
+
+    /// Whether a root of the line's is in a range, for the smallest radius: then two are for each.
+    fn inner_root(&self, line: &oracle::Ray, t_min: f64, t_max: f64) -> bool {
+        self.inner > 0.0
+            && oracle::sphere(&oracle::Ray { t_min, t_max, ..*line }, self.center, self.inner)
+    }
+
+    fn outer_root(&self, line: &oracle::Ray, t_min: f64, t_max: f64) -> bool {
+        oracle::sphere(&oracle::Ray { t_min, t_max, ..*line }, self.center, self.outer)
+    }
+
+    /// Whether the near root is in the ray's range for every radius: the later it is the smaller the radius.
+    fn near_root_is_in_range(&self, ray: &oracle::Ray) -> bool {
+        self.inner_root(ray, -INFINITY, ray.t_max) && !self.outer_root(ray, -INFINITY, ray.t_min)
+    }
+
+    /// Whether the far root is: the sooner it is the smaller the radius.
+    fn far_root_is_in_range(&self, ray: &oracle::Ray) -> bool {
+        self.inner_root(ray, ray.t_min, INFINITY) && !self.outer_root(ray, ray.t_max, INFINITY)
+    }
+
+    /// Whether t is the near root, or the far one, for some radius.
+    fn has_root(&self, line: &oracle::Ray, t: f64, far: bool) -> bool {
+        let side = |radius| oracle::sphere_side(line, self.center, radius, t).expect("valid");
+        if self.inner <= 0.0 {
+            return side(self.outer).is_le();
+        }
+        // A line that meets the smallest sphere has its near roots before it, and its far ones behind.
+        let (before, behind) = if far { (-INFINITY, t) } else { (t, INFINITY) };
+        side(self.outer).is_le()
+            && side(self.inner).is_ge()
+            && (!self.inner_root(line, -INFINITY, INFINITY)
+                || self.inner_root(line, before, behind))
+    }
+}
+
+/// Each root is the exact one for a radius that is wrong by the stated error: so is the hit, which is the nearest root in
+/// range; and a miss has none there for some radius.
 #[test]
 fn spheres() {
     fn check<V: Vector>() {
-        let unit = unit_roundoff::<V::Scalar>();
+        let largest: f64 = V::Scalar::MAX.into();
         for kernel in sphere_kernels::<V>() {
             let mut rng = fastrand::Rng::with_seed(SEED + 1);
-            let (mut hits, mut misses) = (0, 0);
+            let (mut near, mut far, mut misses, mut clear_misses) = (0, 0, 0, 0);
             for _ in 0..150_000 {
                 let (ray_, center, radius) = generators::ray_sphere(&mut rng);
-                let f: f64 =
-                    (0..3).map(|i| (center[i] - ray_.origin[i]).powi(2)).sum::<f64>().sqrt();
-                let (square, linear) = (kernel.error)(unit, f, radius);
-                let inner = (radius * radius - square).max(0.0).sqrt() - linear;
-                let outer = (radius * radius + square).sqrt() + linear;
+                let shell = Shell::new(&kernel, &ray_, center, radius);
                 let hit = (kernel.intersect)(&ray::<V>(&ray_), &sphere(&center, radius));
                 let case = || {
                     format!(
@@ -122,153 +181,183 @@ fn spheres() {
                         name::<V>()
                     )
                 };
+                // A t beyond the largest float is none.
+                let finite = oracle::Ray {
+                    t_min: ray_.t_min.max(-largest),
+                    t_max: ray_.t_max.min(largest),
+                    ..ray_
+                };
                 if let Some(hit) = hit {
-                    hits += 1;
                     let t = hit.t.into();
                     assert!(ray_.t_min <= t && t <= ray_.t_max, "{}", case());
-                    let side =
-                        |radius| oracle::sphere_side(&ray_, center, radius, t).expect("valid");
-                    assert!(side(outer).is_le(), "{}", case());
-                    assert!(inner <= 0.0 || side(inner).is_ge(), "{}", case());
+                    assert!(shell.has_root(&ray_, t, hit.leaving), "{}", case());
+                    if hit.leaving {
+                        far += 1;
+                        assert!(!shell.near_root_is_in_range(&finite), "{}", case());
+                    } else {
+                        near += 1;
+                    }
                 } else {
                     misses += 1;
-                    // A line that passes well inside of the sphere cannot be missed.
-                    // (If its roots are floats, even with an error that is large against a tiny direction.)
-                    let limit = f64::from(f32::MAX) / 1024.0;
-                    let line = oracle::Ray { t_min: -limit, t_max: limit, ..ray_ };
-                    let whole = isect::Ray {
-                        t_min: scalar(-INFINITY),
-                        t_max: scalar(INFINITY),
-                        ..ray::<V>(&ray_)
-                    };
-                    let found = (kernel.intersect)(&whole, &sphere(&center, radius)).is_some();
-                    assert!(
-                        found || inner <= 0.0 || !oracle::sphere(&line, center, inner),
-                        "{}",
-                        case()
-                    );
+                    assert!(!shell.near_root_is_in_range(&finite), "{}", case());
+                    assert!(!shell.far_root_is_in_range(&finite), "{}", case());
+                    clear_misses +=
+                        u32::from(!shell.outer_root(&finite, finite.t_min, finite.t_max));
                 }
             }
             println!(
-                "{:<6} {:<10} {hits} hits and {misses} misses within bounds",
+                "{:<6} {:<10} {near} near and {far} far roots, {misses} misses within bounds, {clear_misses} of them clear",
                 name::<V>(),
                 kernel.name
             );
-            assert!(hits > 20_000 && misses > 10_000);
+            assert!(near > 20_000 && far > 5_000 && misses > 10_000 && clear_misses > 5_000);
         }
     }
     for_every_vector!(check);
 }
 
-/// The plane's t satisfies n·(o + t·d) = offset with the stated errors of numerator and denominator.
+/// The plane's t satisfies n·(o + t·d) = offset with the stated errors of numerator, denominator and quotient; and a miss
+/// has no t in range with some of them.
 #[test]
 fn planes() {
     fn check<V: Vector>() {
         let unit = unit_roundoff::<V::Scalar>();
         let mut rng = fastrand::Rng::with_seed(SEED + 2);
-        let mut outcomes = [0; 3];
+        let (mut at, mut contained, mut missed, mut left_out) = (0, 0, 0, 0);
         for _ in 0..300_000 {
             let (ray_, normal, offset) = generators::ray_plane(&mut rng);
-            let plane = Plane { normal: vector::<V>(normal), offset: scalar(offset) };
-            let found = plane::intersect(&ray(&ray_), &plane);
-            // The bounds are about rounding: where a product underflows they do not count.
+            // The bounds are about rounding: where a product, or the quotient before its powers of two are taken out, over- or
+            // underflows they do not count.
+            let moderate = |x: f64| x == 0.0 || (1e-30..1e30).contains(&x.abs());
             let products =
                 (0..3).flat_map(|i| [ray_.origin[i], ray_.direction[i]].map(|x| x * normal[i]));
-            if products.chain([offset]).any(|x| x != 0.0 && !(1e-30..1e30).contains(&x.abs())) {
+            if !products.chain([offset]).all(moderate) {
+                left_out += 1;
+                continue;
+            }
+            let plane = Plane { normal: vector::<V>(normal), offset: scalar(offset) };
+            let found = plane::intersect(&ray(&ray_), &plane);
+            let case = || format!("{} {ray_:?} {normal:?} {offset}: {found:?}", name::<V>());
+
+            if normal == [0.0; 3] || ray_.direction == [0.0; 3] {
+                assert_eq!(found, None, "{}", case());
                 continue;
             }
             let terms = |a: &[f64; 3]| (0..3).map(|i| (a[i] * normal[i]).abs()).sum::<f64>();
-            let numerator_error = 4.0 * unit * (offset.abs() + terms(&ray_.origin));
-            let denominator_error = 3.0 * unit * terms(&ray_.direction);
-            let case = || format!("{} {ray_:?} {normal:?} {offset}: {found:?}", name::<V>());
+            // A thousandth for what is of second order.
+            let first_order = 1.001 * unit;
+            let numerator_error = first_order * 4.0 * (offset.abs() + terms(&ray_.origin));
+            let denominator_error = first_order * 3.0 * terms(&ray_.direction);
+            let denominator = (0..3).map(|i| normal[i] * ray_.direction[i]).sum::<f64>().abs();
+            // How far n·(o + t·d) may be from the offset.
+            let slack = |t: f64| {
+                numerator_error
+                    + t.abs() * denominator_error
+                    + first_order * t.abs() * (denominator + denominator_error)
+            };
+            // Whether it is clearly less, or clearly greater; with the bounds rounded outward.
+            let below = |t: f64| {
+                let moved = (offset - slack(t)).next_down();
+                oracle::plane_side(&ray_, normal, moved, t).expect("valid").is_lt()
+            };
+            let above = |t: f64| {
+                let moved = (offset + slack(t)).next_up();
+                oracle::plane_side(&ray_, normal, moved, t).expect("valid").is_gt()
+            };
             match found {
                 Some(PlaneHit::At(t)) => {
-                    outcomes[0] += 1;
+                    at += 1;
                     let t: f64 = t.into();
-                    if t != 0.0 && t.abs() < 1e-30 {
-                        continue; // nor where t itself may
-                    }
                     assert!(ray_.t_min <= t && t <= ray_.t_max, "{}", case());
-                    // n·o + t·n·d, moved by the errors, straddles the offset: as exact planes.
-                    let line = oracle::Ray { t_min: -INFINITY, t_max: t, ..ray_ };
-                    let slack = 1.01
-                        * (numerator_error
-                            + t.abs() * denominator_error
-                            + 2.0 * unit * t.abs() * terms(&ray_.direction));
-                    let up_to = |by: f64| {
-                        oracle::plane(&line, normal, offset + by) != oracle::PlaneVerdict::Miss
-                    };
-                    assert!(
-                        up_to(slack) != up_to(-slack)
-                            || slack < f64::from(f32::MIN_POSITIVE)
-                            || !slack.is_finite(),
-                        "{}",
-                        case()
-                    );
+                    assert!(!below(t) && !above(t) || !moderate(t), "{}", case());
                 }
                 Some(PlaneHit::Contained) => {
-                    outcomes[1] += 1;
-                    let den: f64 = (0..3).map(|i| normal[i] * ray_.direction[i]).sum();
-                    let num: f64 = offset - (0..3).map(|i| normal[i] * ray_.origin[i]).sum::<f64>();
-                    assert!(
-                        den.abs() <= 1.01 * denominator_error
-                            && num.abs() <= 1.01 * numerator_error,
-                        "{}",
-                        case()
-                    );
+                    contained += 1;
+                    assert!(!below(0.0) && !above(0.0), "{}", case());
+                    let slope = oracle::Ray { origin: [0.0; 3], ..ray_ };
+                    let side =
+                        |error: f64| oracle::plane_side(&slope, normal, error, 1.0).expect("valid");
+                    assert!(side(denominator_error).is_le(), "{}", case());
+                    assert!(side(-denominator_error).is_ge(), "{}", case());
                 }
-                None => outcomes[2] += 1,
+                None => {
+                    missed += 1;
+                    // Not if the ends of the range, as far as that is moderate, are clearly on different sides.
+                    let far = 1e30 / ray_.direction.iter().fold(1.0, |m, x| x.abs().max(m));
+                    let (start, end) = (ray_.t_min.max(-far), ray_.t_max.min(far));
+                    let crosses = below(start) && above(end) || above(start) && below(end);
+                    assert!(start > end || !crosses, "{}", case());
+                    // Nor if the numerator is zero without error, and so is t.
+                    let through_origin = numerator_error == 0.0;
+                    assert!(!(through_origin && start <= 0.0 && 0.0 <= end), "{}", case());
+                }
             }
         }
-        println!("{:<6} planes: {outcomes:?} at, contained, missed", name::<V>());
-        assert!(outcomes.iter().all(|&n| n > 5_000), "{outcomes:?}");
+        println!(
+            "{:<6} planes: {at} at, {contained} contained, {missed} missed, {left_out} left out",
+            name::<V>()
+        );
+        assert!(at > 50_000 && contained > 5_000 && missed > 50_000);
     }
     for_every_vector!(check);
 }
 
-/// Entry and exit within three roundings; a wrong verdict flips when every t may move by that.
+/// Entry and exit are within 3.1u; and so is each verdict one of a box whose planes are met at a t that is.
 #[test]
 fn slabs() {
     fn check<V: Vector>() {
-        let unit = unit_roundoff::<V::Scalar>();
-        let tiny: f64 = <V::Scalar as Scalar>::MIN_POSITIVE.into();
+        let relative = 3.1 * unit_roundoff::<V::Scalar>();
+        // A t that underflows is off by at most half of the least float.
+        let least: f64 = (<V::Scalar as Scalar>::MIN_POSITIVE * V::Scalar::EPSILON).into();
+        let largest: f64 = V::Scalar::MAX.into();
         let mut rng = fastrand::Rng::with_seed(SEED + 3);
-        let (mut right, mut wrong) = (0, 0);
+        let (mut hits, mut misses, mut false_hits, mut false_misses) = (0, 0, 0, 0);
         for _ in 0..300_000 {
             let (ray_, min, max) = generators::ray_aabb(&mut rng);
             let hit = slab::intersect(&BoxRay::new(&ray(&ray_)), &aabb::<V>(&min, &max));
-            if hit.is_some() != oracle::aabb(&ray_, min, max) {
-                wrong += 1;
-                continue;
-            }
-            right += 1;
-            let Some(hit) = hit else { continue };
-            let around = |t: f64| {
-                if t.is_infinite() {
-                    // Beyond the largest float, or unbounded.
-                    let largest: f64 = <V::Scalar as Scalar>::MAX.into();
-                    return if t < 0.0 { (t, -largest) } else { (largest, t) };
-                }
-                let error = 3.1 * unit * t.abs() + tiny;
-                (t - error, t + error)
+            let case = || format!("{} {ray_:?} {min:?} {max:?} {hit:?}", name::<V>());
+            // A t beyond the largest float is none.
+            let finite = oracle::Ray {
+                t_min: ray_.t_min.max(-largest),
+                t_max: ray_.t_max.min(largest),
+                ..ray_
             };
-            let (enter, exit): (f64, f64) = (hit.t_enter.into(), hit.t_exit.into());
-            assert!(ray_.t_min <= enter && enter <= exit && exit <= ray_.t_max);
-            let (low, high) = around(enter);
-            assert!(
-                oracle::aabb_enter_in(&ray_, min, max, low, high),
-                "{ray_:?} {min:?} {max:?} {hit:?}"
-            );
-            let (low, high) = around(exit);
-            assert!(
-                oracle::aabb_exit_in(&ray_, min, max, low, high),
-                "{ray_:?} {min:?} {max:?} {hit:?}"
-            );
+            match (hit, oracle::aabb(&ray_, min, max)) {
+                (Some(hit), true) => {
+                    hits += 1;
+                    let around = |t: f64| {
+                        if t.is_infinite() {
+                            // Beyond the largest float, or unbounded.
+                            return if t < 0.0 { (t, -largest) } else { (largest, t) };
+                        }
+                        let error = relative * t.abs() + least;
+                        (t - error, t + error)
+                    };
+                    let (enter, exit): (f64, f64) = (hit.t_enter.into(), hit.t_exit.into());
+                    assert!(ray_.t_min <= enter && enter <= exit && exit <= ray_.t_max);
+                    let (low, high) = around(enter);
+                    assert!(oracle::aabb_enter_in(&ray_, min, max, low, high), "{}", case());
+                    let (low, high) = around(exit);
+                    assert!(oracle::aabb_exit_in(&ray_, min, max, low, high), "{}", case());
+                }
+                (None, false) => misses += 1,
+                (Some(_), false) => {
+                    false_hits += 1;
+                    let touches = oracle::aabb_if_moved(&ray_, min, max, relative, least);
+                    assert!(touches, "{}", case());
+                }
+                (None, true) => {
+                    false_misses += 1;
+                    let touches = oracle::aabb_if_moved(&finite, min, max, -relative, -least);
+                    assert!(!touches, "{}", case());
+                }
+            }
         }
         println!(
-            "{:<6} slab: {right} verdicts right, {wrong} wrong of adversarial cases",
+            "{:<6} slab: {hits} hits and {misses} misses right; {false_hits} and {false_misses} wrong within bounds",
             name::<V>()
         );
+        assert!(hits > 50_000 && misses > 50_000 && false_hits > 500 && false_misses > 500);
     }
     for_every_vector!(check);
 }

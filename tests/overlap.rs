@@ -1,9 +1,10 @@
 //! Claim: separating axes and clipping agree with exact arithmetic on lattices, and beyond them except near a touch.
 
-use isect::Vector;
 use isect::glam::DVec3;
-use isect::overlap::triangle_aabb::clip;
+use isect::overlap::triangle_aabb::{clip, sat};
+use isect::{Aabb, Triangle, Vector};
 
+use crate::support::bounds::unit_roundoff;
 use crate::support::kernels::overlap_kernels;
 use crate::support::{aabb, array, for_every_vector, generators, name, oracle, triangle, vector};
 
@@ -53,51 +54,78 @@ fn kernels_are_exact_on_lattices() {
 fn uncertainty(vertices: &[[f64; 3]; 3]) -> f64 {
     let [v0, v1, v2] = vertices.map(vector::<DVec3>);
     let (e1, e2) = (v1 - v0, v2 - v0);
-    e1.length() * e2.length() / DVec3::cross(e1, e2).length()
+    let area = DVec3::cross(e1, e2).length();
+    if area > 0.0 { e1.length() * e2.length() / area } else { f64::INFINITY }
 }
 
-/// A wrong verdict flips back when the faces of the box are moved a little: by 16u·κ of the coordinates that meet, where
-/// κ = |e1||e2|/|n| tells how uncertain the normal is, which a needle's is.
-#[test]
-fn wrong_verdicts_are_near_touches() {
-    fn check<V: Vector>() {
-        let unit = crate::support::bounds::unit_roundoff::<V::Scalar>();
-        let mut rng = fastrand::Rng::with_seed(SEED + 1);
-        let mut wrong = [0; 2];
-        let cases = 200_000;
-        for _ in 0..cases {
-            let (vertices, min, max) = generators::triangle_aabb(&mut rng);
-            let expected = oracle::triangle_aabb_sat(vertices, min, max);
-            let (triangle, aabb) = (triangle::<V>(&vertices), aabb::<V>(&min, &max));
-            for (count, (kernel, overlaps)) in wrong.iter_mut().zip(overlap_kernels::<V>()) {
-                if overlaps(&triangle, &aabb) == expected {
-                    continue;
-                }
-                *count += 1;
-                let largest = vertices.as_flattened().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-                let margin =
-                    16.0 * unit * largest * uncertainty(&vertices) + f64::from(f32::MIN_POSITIVE);
-                if !margin.is_finite() {
-                    continue;
-                }
-                let sign = if expected { -1.0 } else { 1.0 };
-                let moved = |p: [f64; 3], by: f64| p.map(|x| x + by);
-                let (near_min, near_max) = (moved(min, -sign * margin), moved(max, sign * margin));
-                let near = oracle::triangle_aabb_sat(vertices, near_min, near_max);
-                assert_ne!(
-                    near,
-                    expected,
-                    "{kernel} {}: {vertices:?} {min:?} {max:?}",
-                    name::<V>()
-                );
-            }
+/// The largest magnitude of a coordinate.
+fn largest(vertices: &[[f64; 3]; 3]) -> f64 {
+    vertices.as_flattened().iter().fold(0.0, |m, x| x.abs().max(m))
+}
+
+/// Checks a kernel's wrong verdicts: `is_near` gets the case and the right one.
+fn wrong_verdicts<V: Vector>(
+    kernel: fn(&Triangle<V>, &Aabb<V>) -> bool,
+    is_near: impl Fn([[f64; 3]; 3], [f64; 3], [f64; 3], bool) -> bool,
+) {
+    let mut rng = fastrand::Rng::with_seed(SEED + 1);
+    let (cases, mut false_hits, mut false_misses) = (200_000, 0, 0);
+    for _ in 0..cases {
+        let (vertices, min, max) = generators::triangle_aabb(&mut rng);
+        let expected = oracle::triangle_aabb_sat(vertices, min, max);
+        if kernel(&triangle(&vertices), &aabb(&min, &max)) == expected {
+            continue;
         }
-        println!(
-            "{:<6} {cases} cases: sat {} wrong, clip {} wrong",
-            name::<V>(),
-            wrong[0],
-            wrong[1]
-        );
+        *if expected { &mut false_misses } else { &mut false_hits } += 1;
+        let case = || format!("{} {expected}: {vertices:?} {min:?} {max:?}", name::<V>());
+        assert!(is_near(vertices, min, max, expected), "{}", case());
+    }
+    println!(
+        "{:<6} {cases} cases: {false_hits} false hits, {false_misses} false misses",
+        name::<V>()
+    );
+    assert!(false_hits > 100 && false_misses > 100);
+}
+
+/// By separating axes: after a false hit each axis has triangle and box apart by no more than its error, and after a false
+/// miss one has them overlap by no more than that: 16u·s, and κ = |e1||e2|/|n| times that for the normal.
+#[test]
+fn wrong_verdicts_of_sat_are_near_touches() {
+    fn check<V: Vector>() {
+        let unit = unit_roundoff::<V::Scalar>();
+        wrong_verdicts::<V>(sat::overlaps, |vertices, min, max, touches| {
+            let margin = 16.0 * unit * largest(&vertices);
+            let normal_margin = margin * uncertainty(&vertices);
+            // Nothing of the box counts but what lies in the triangle's own.
+            let extent =
+                |f: fn(f64, f64) -> f64, i: usize| vertices.map(|v| v[i]).into_iter().reduce(f);
+            let low = std::array::from_fn(|i| extent(f64::min, i).expect("three").max(min[i]));
+            let high = std::array::from_fn(|i| extent(f64::max, i).expect("three").min(max[i]));
+            let apart = |sign: f64| {
+                oracle::triangle_aabb_apart(
+                    vertices,
+                    low,
+                    high,
+                    sign * margin,
+                    sign * normal_margin,
+                )
+            };
+            if touches { apart(-1.0) } else { !apart(1.0) }
+        });
+    }
+    for_every_vector!(check);
+}
+
+/// By clipping: a wrong verdict flips when the faces of the box are moved by 100u·s.
+#[test]
+fn wrong_verdicts_of_clip_are_near_touches() {
+    fn check<V: Vector>() {
+        let unit = unit_roundoff::<V::Scalar>();
+        wrong_verdicts::<V>(clip::overlaps, |vertices, min, max, touches| {
+            let margin = 100.0 * unit * largest(&vertices) * if touches { -1.0 } else { 1.0 };
+            let (min, max) = (min.map(|x| x - margin), max.map(|x| x + margin));
+            oracle::triangle_aabb_sat(vertices, min, max) != touches
+        });
     }
     for_every_vector!(check);
 }
@@ -105,7 +133,7 @@ fn wrong_verdicts_are_near_touches() {
 #[test]
 fn what_clip_leaves_lies_in_the_box_and_in_the_triangle() {
     fn check<V: Vector>() {
-        let unit = crate::support::bounds::unit_roundoff::<V::Scalar>();
+        let unit = unit_roundoff::<V::Scalar>();
         let mut rng = fastrand::Rng::with_seed(SEED + 2);
         let mut most = 0;
         for case in 0..100_000 {
@@ -119,9 +147,8 @@ fn what_clip_leaves_lies_in_the_box_and_in_the_triangle() {
             most = most.max(polygon.vertices().len());
             assert!(polygon.vertices().iter().all(|&p| aabb.contains(p)));
             assert_eq!(polygon.aabb().is_empty(), polygon.vertices().is_empty());
-            let largest = vertices.as_flattened().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             // A box of the bound's size around each vertex meets the triangle.
-            let margin = 100.0 * unit * largest + f64::MIN_POSITIVE;
+            let margin = 100.0 * unit * largest(&vertices) + f64::MIN_POSITIVE;
             for &p in polygon.vertices() {
                 let p = array(p);
                 let (low, high) = (p.map(|x| x - margin), p.map(|x| x + margin));

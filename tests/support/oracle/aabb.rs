@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 
 use super::integer::{Integer, Interval, Ratio};
-use super::{Frame, Ray, fits_i128, is_box};
+use super::{Frame, Query, Ray, decide, is_box};
 
 /// Whether a ray touches a closed box; infinite bounds leave it open on that side, an empty box is a miss.
 #[must_use]
@@ -21,6 +21,20 @@ pub fn aabb_enter_in(ray: &Ray, min: [f64; 3], max: [f64; 3], lo: f64, hi: f64) 
 #[must_use]
 pub fn aabb_exit_in(ray: &Ray, min: [f64; 3], max: [f64; 3], lo: f64, hi: f64) -> bool {
     query(ray, min, max, Question::ExitIn(lo, hi))
+}
+
+/// Whether a ray touches a closed box if each t at which it crosses a plane of the box is moved: entries down and exits up, by
+/// `relative` of the t's magnitude and by `absolute`; negative numbers move them the other way. The range stays.
+#[must_use]
+pub fn aabb_if_moved(
+    ray: &Ray,
+    min: [f64; 3],
+    max: [f64; 3],
+    relative: f64,
+    absolute: f64,
+) -> bool {
+    Case::new(ray, min, max, Question::Touches)
+        .is_some_and(|case| case.touches_if_moved(relative, absolute))
 }
 
 #[derive(Clone, Copy)]
@@ -41,11 +55,7 @@ impl Question {
 }
 
 fn query(ray: &Ray, min: [f64; 3], max: [f64; 3], question: Question) -> bool {
-    match Case::new(ray, min, max, question) {
-        Some(case) if fits_i128(case.bits()) => case.answer::<i128>(),
-        Some(case) => case.answer::<BigInt>(),
-        None => false,
-    }
+    Case::new(ray, min, max, question).is_some_and(|case| decide(&case))
 }
 
 struct Case {
@@ -67,26 +77,8 @@ impl Case {
         })
     }
 
-    fn bits(&self) -> u32 {
-        let asked = self.question.range().map_or(0, |(lo, hi)| self.frame.interval_bits(lo, hi));
-        let t = self.frame.range_bits().max(asked);
-        (self.frame.points.bits + 1).max(t) + self.frame.directions.bits.max(t)
-    }
-
-    fn answer<I: Integer>(&self) -> bool {
-        let inside = self.inside::<I>();
-        let lies_in = |t: &Ratio<I>, lo, hi| self.frame.interval(lo, hi).contains(t);
-        !inside.is_empty()
-            && match self.question {
-                Question::Touches => true,
-                Question::EnterIn(lo, hi) => lies_in(&inside.enter, lo, hi),
-                Question::ExitIn(lo, hi) => lies_in(&inside.exit, lo, hi),
-            }
-    }
-
-    /// The part of the range that lies in the box.
-    fn inside<I: Integer>(&self) -> Interval<I> {
-        let mut range = self.frame.range();
+    /// The part of a range that lies in the box.
+    fn inside<I: Integer>(&self, mut range: Interval<I>) -> Interval<I> {
         let direction = self.frame.direction::<I>();
         // An infinite bound has no half-space; the origin stands in for it.
         let bound = |b: [f64; 3]| {
@@ -103,11 +95,46 @@ impl Case {
         }
         range
     }
+
+    fn touches_if_moved(&self, relative: f64, absolute: f64) -> bool {
+        let relative = Ratio::<BigInt>::from_float(relative, 0);
+        let absolute = Ratio::from_float(absolute, self.frame.t_shift());
+        let crossings = self.inside(self.frame.interval(f64::NEG_INFINITY, f64::INFINITY));
+        // Moving keeps the order: the last entry stays the last, the first exit the first.
+        let by = |t: &Ratio<_>| t.abs().times(&relative).plus(&absolute);
+        let enter = crossings.enter.plus(&by(&crossings.enter).negated());
+        let exit = crossings.exit.plus(&by(&crossings.exit));
+        let range = self.frame.range();
+        enter.max(range.enter) <= exit.min(range.exit)
+    }
+}
+
+impl Query for Case {
+    type Answer = bool;
+
+    fn bits(&self) -> u32 {
+        let asked = self.question.range().map_or(0, |(lo, hi)| self.frame.interval_bits(lo, hi));
+        let t = self.frame.range_bits().max(asked);
+        (self.frame.points.bits + 1).max(t) + self.frame.directions.bits.max(t)
+    }
+
+    fn answer<I: Integer>(&self) -> bool {
+        let inside = self.inside::<I>(self.frame.range());
+        let lies_in = |t: &Ratio<I>, lo, hi| self.frame.interval(lo, hi).contains(t);
+        !inside.is_empty()
+            && match self.question {
+                Question::Touches => true,
+                Question::EnterIn(lo, hi) => lies_in(&inside.enter, lo, hi),
+                Question::ExitIn(lo, hi) => lies_in(&inside.exit, lo, hi),
+            }
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{extreme_point, lattice_point, lattice_ray};
+    use super::super::{
+        assert_limit_holds, assert_tiers_agree, extreme_point, lattice_point, on_lattices,
+    };
     use super::*;
 
     const INF: f64 = f64::INFINITY;
@@ -183,50 +210,60 @@ mod tests {
     }
 
     #[test]
+    fn crossings_are_moved_and_the_range_is_not() {
+        // From 2 to 4 on one axis, from 4.5 to 6 on another.
+        let (min, max) = ([2.0, 4.5, 0.0], [4.0, 6.0, 0.0]);
+        let gap = ray([0.0; 3], [1.0, 1.0, 0.0]);
+        let moved =
+            |ray: &Ray, relative, absolute| aabb_if_moved(ray, min, max, relative, absolute);
+        assert!(moved(&gap, 0.0, 0.25) && !moved(&gap, 0.0, 0.25f64.next_down()));
+        assert!(moved(&gap, 0.0625, 0.0) && !moved(&gap, 0.058, 0.0), "0.5 of 8.5");
+        assert!(moved(&gap.reversed(), 0.0625, 0.0), "at negative t as well");
+        let early = gap.with_range(0.0, 4.25);
+        assert!(moved(&early, 0.0, 0.25) && !moved(&early.with_range(0.0, 4.0), 0.0, 0.25));
+        let inner = ray([0.0, 5.0, 0.0], [1.0, 0.0, 0.0]);
+        assert!(moved(&inner, -0.25, 0.0) && moved(&inner, 0.0, -1.0), "2.5 and 3; 3 and 3");
+        assert!(!moved(&inner, -0.375, 0.0) && !moved(&inner, 0.0, -1.125));
+        let beside = ray([0.0, 5.0, 1.0], [1.0, 0.0, 0.0]);
+        assert!(!moved(&beside, 9.0, 9.0), "a parallel ray enters nowhere");
+    }
+
+    #[test]
     fn tiers_agree_and_symmetries_change_nothing() {
-        let mut rng = fastrand::Rng::with_seed(3);
-        for k in 0..30_000 {
-            let radius = if k % 2 == 0 { 3 } else { 1 << 23 };
-            let ray = lattice_ray(&mut rng, radius);
-            let (a, b) = (lattice_point(&mut rng, radius), lattice_point(&mut rng, radius));
+        on_lattices(3, 30_000, [3, 1 << 23], |rng, radius, ray| {
+            let (a, b) = (lattice_point(rng, radius), lattice_point(rng, radius));
             let min = std::array::from_fn(|k| a[k].min(b[k]));
             let max = std::array::from_fn(|k| a[k].max(b[k]));
             for question in
                 [Question::Touches, Question::EnterIn(0.25, 0.75), Question::ExitIn(0.25, 0.75)]
             {
                 if let Some(case) = Case::new(&ray, min, max, question) {
-                    assert!(fits_i128(case.bits()));
-                    assert_eq!(case.answer::<i128>(), case.answer::<BigInt>());
+                    assert_tiers_agree(&case);
                 }
             }
             let hits = aabb(&ray, min, max);
             let turn = |[x, y, z]: [f64; 3]| [y, z, x].map(|x| x * 2f64.powi(300));
             let turned = Ray { origin: turn(ray.origin), direction: turn(ray.direction), ..ray };
             assert_eq!(aabb(&turned, turn(min), turn(max)), hits);
-            let back = Ray {
-                direction: ray.direction.map(|x| -x),
-                ..ray.with_range(-ray.t_max, -ray.t_min)
-            };
+            let back = ray.reversed();
             assert_eq!(aabb(&back, min, max), hits);
             assert_eq!(
                 aabb_exit_in(&back, min, max, -0.75, -0.25),
                 aabb_enter_in(&ray, min, max, 0.25, 0.75)
             );
-        }
+            assert_eq!(aabb_if_moved(&ray, min, max, 0.0, 0.0), hits);
+        });
     }
 
     #[test]
     fn the_fast_tier_holds_the_largest_numbers_it_admits() {
-        let mut rng = fastrand::Rng::with_seed(13);
-        for _ in 0..6_000 {
-            let mut extreme = || extreme_point(&mut rng, 63);
+        assert_limit_holds(13, 6_000, |rng| {
+            let mut extreme = || extreme_point(rng, 63);
             let ray = ray(extreme(), extreme()).with_range(-INF, INF);
             let (a, b) = (extreme(), extreme());
             let min = std::array::from_fn(|k| a[k].min(b[k]));
             let max = std::array::from_fn(|k| a[k].max(b[k]));
-            let case = Case::new(&ray, min, max, Question::Touches).unwrap();
-            assert_eq!(case.bits(), 127);
-            assert_eq!(case.answer::<i128>(), case.answer::<BigInt>());
-        }
+            Case::new(&ray, min, max, Question::Touches).expect("valid")
+        });
     }
 }

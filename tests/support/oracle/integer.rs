@@ -191,6 +191,32 @@ impl<I: Integer> Ratio<I> {
         if den.signum() < 0 { Self { num: -num, den: -den } } else { Self { num, den } }
     }
 
+    /// `|self|`
+    pub(super) fn abs(&self) -> Self {
+        if self.num.signum() < 0 { self.negated() } else { self.clone() }
+    }
+
+    /// `−self`
+    pub(super) fn negated(&self) -> Self {
+        Self { num: -self.num.clone(), den: self.den.clone() }
+    }
+
+    /// `self · other`; no infinity times zero.
+    pub(super) fn times(&self, other: &Self) -> Self {
+        Self { num: self.num.clone() * &other.num, den: self.den.clone() * &other.den }
+    }
+
+    /// `self + other`; an infinity plus anything is that infinity.
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        if self.den.signum() == 0 {
+            return self.clone();
+        }
+        Self {
+            num: self.num.clone() * &other.den + other.num.clone() * &self.den,
+            den: self.den.clone() * &other.den,
+        }
+    }
+
     /// +∞ or −∞.
     #[inline]
     pub(super) fn infinity(sign: i64) -> Self {

@@ -14,11 +14,13 @@ mod sphere;
 mod triangle;
 mod triangle_aabb;
 
-pub use aabb::{aabb, aabb_enter_in, aabb_exit_in};
-pub use plane::{PlaneVerdict, plane};
+pub use aabb::{aabb, aabb_enter_in, aabb_exit_in, aabb_if_moved};
+pub use plane::{PlaneVerdict, plane, plane_side};
 pub use sphere::{sphere, sphere_side};
 pub use triangle::{TriangleVerdict, triangle, triangle_t_in, triangle_u_in, triangle_v_in};
-pub use triangle_aabb::{triangle_aabb_clip, triangle_aabb_sat};
+pub use triangle_aabb::{triangle_aabb_apart, triangle_aabb_clip, triangle_aabb_sat};
+
+use num_bigint::BigInt;
 
 use integer::{Grid, I128_BITS, Integer, Interval, Vector, ratio_bits, sub};
 
@@ -54,6 +56,13 @@ impl Ray {
     /// The same line with another range.
     fn with_range(self, t_min: f64, t_max: f64) -> Self {
         Self { t_min, t_max, ..self }
+    }
+
+    /// The same points in the opposite order: t counts the other way.
+    #[cfg(test)]
+    fn reversed(self) -> Self {
+        let direction = self.direction.map(|x| -x);
+        Self { direction, t_min: -self.t_max, t_max: -self.t_min, ..self }
     }
 }
 
@@ -127,6 +136,54 @@ impl Frame {
 /// Whether a bit length is safe in the fast tier.
 fn fits_i128(bits: u32) -> bool {
     bits <= I128_BITS
+}
+
+/// What is asked about a case, in integers of which the length is known beforehand.
+trait Query {
+    type Answer: PartialEq + std::fmt::Debug;
+
+    /// An upper bound on the bit length of everything that is computed.
+    fn bits(&self) -> u32;
+
+    fn answer<I: Integer>(&self) -> Self::Answer;
+}
+
+/// Answers in the fast tier where it is safe.
+fn decide<Q: Query>(query: &Q) -> Q::Answer {
+    if fits_i128(query.bits()) { query.answer::<i128>() } else { query.answer::<BigInt>() }
+}
+
+/// Asserts that the tiers agree about a case that the fast one admits.
+#[cfg(test)]
+fn assert_tiers_agree<Q: Query>(query: &Q) {
+    assert!(fits_i128(query.bits()));
+    assert_eq!(query.answer::<i128>(), query.answer::<BigInt>());
+}
+
+/// Asserts that the fast tier is right about cases that need all of its bits.
+#[cfg(test)]
+fn assert_limit_holds<Q: Query>(seed: u64, cases: u32, random: impl Fn(&mut fastrand::Rng) -> Q) {
+    let mut rng = fastrand::Rng::with_seed(seed);
+    for _ in 0..cases {
+        let query = random(&mut rng);
+        assert_eq!(query.bits(), I128_BITS);
+        assert_tiers_agree(&query);
+    }
+}
+
+/// Checks rays on lattices of two sizes in turn, each with the radius of its lattice.
+#[cfg(test)]
+fn on_lattices(
+    seed: u64,
+    cases: u32,
+    radii: [i32; 2],
+    mut check: impl FnMut(&mut fastrand::Rng, i32, Ray),
+) {
+    let mut rng = fastrand::Rng::with_seed(seed);
+    for radius in radii.into_iter().cycle().take(cases as usize) {
+        let ray = lattice_ray(&mut rng, radius);
+        check(&mut rng, radius, ray);
+    }
 }
 
 /// A point with integer coordinates of at most `radius`.

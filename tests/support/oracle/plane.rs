@@ -1,9 +1,9 @@
 //! Ray against plane: one dot product above another.
 
-use num_bigint::BigInt;
+use std::cmp::Ordering;
 
 use super::integer::{Grid, Integer, Ratio, dot};
-use super::{Frame, Ray, fits_i128, is_finite};
+use super::{Frame, Query, Ray, decide, is_finite};
 
 /// What a ray and a plane have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,11 +19,13 @@ pub enum PlaneVerdict {
 /// A ray against the plane `normal · p = offset`; the normal has any length but zero.
 #[must_use]
 pub fn plane(ray: &Ray, normal: [f64; 3], offset: f64) -> PlaneVerdict {
-    match Case::new(ray, normal, offset) {
-        Some(case) if fits_i128(case.bits()) => case.verdict::<i128>(),
-        Some(case) => case.verdict::<BigInt>(),
-        None => PlaneVerdict::Miss,
-    }
+    Case::new(ray, normal, offset).map_or(PlaneVerdict::Miss, |case| decide(&case))
+}
+
+/// Whether `normal · p` is less than the offset, equal or greater at the point of the line at a finite t.
+#[must_use]
+pub fn plane_side(ray: &Ray, normal: [f64; 3], offset: f64, t: f64) -> Option<Ordering> {
+    Case::new(&ray.with_range(t, t), normal, offset).map(|case| decide(&Side(case)))
 }
 
 struct Case {
@@ -51,17 +53,26 @@ impl Case {
         Some(Self { normal, offset, frame, normals, offsets: Grid { exponent, bits } })
     }
 
+    /// The offset's height above the origin, and how far a step of the direction climbs.
+    fn height_and_slope<I: Integer>(&self) -> (I, I) {
+        let normal = self.normals.vector::<I>(self.normal);
+        let offset = self.offsets.integer::<I>(self.offset);
+        let height = offset - dot(&normal, &self.frame.points.vector(self.frame.ray.origin));
+        (height, dot(&normal, &self.frame.direction()))
+    }
+}
+
+impl Query for Case {
+    type Answer = PlaneVerdict;
+
     fn bits(&self) -> u32 {
         let (p, d) = (self.frame.points.bits, self.frame.directions.bits);
         let t = self.frame.range_bits();
         t + t.max(self.normals.bits + p.max(d) + 3).max(self.offsets.bits + 1)
     }
 
-    fn verdict<I: Integer>(&self) -> PlaneVerdict {
-        let normal = self.normals.vector::<I>(self.normal);
-        let offset = self.offsets.integer::<I>(self.offset);
-        let height = offset - dot(&normal, &self.frame.points.vector(self.frame.ray.origin));
-        let slope = dot(&normal, &self.frame.direction());
+    fn answer<I: Integer>(&self) -> PlaneVerdict {
+        let (height, slope) = self.height_and_slope::<I>();
         if slope.signum() == 0 {
             return if height.signum() == 0 { PlaneVerdict::Contained } else { PlaneVerdict::Miss };
         }
@@ -73,9 +84,29 @@ impl Case {
     }
 }
 
+/// The side of the plane on which the first t of the range lies.
+struct Side(Case);
+
+impl Query for Side {
+    type Answer = Ordering;
+
+    fn bits(&self) -> u32 {
+        // Two terms of the length of those that the verdict compares.
+        self.0.bits() + 1
+    }
+
+    fn answer<I: Integer>(&self) -> Ordering {
+        let (height, slope) = self.0.height_and_slope::<I>();
+        let t = self.0.frame.range::<I>().enter;
+        (slope * &t.num).cmp(&(height * &t.den))
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{extreme_point, lattice_point, lattice_ray};
+    use super::super::{
+        assert_limit_holds, assert_tiers_agree, extreme_point, lattice_point, on_lattices,
+    };
     use super::*;
 
     const INF: f64 = f64::INFINITY;
@@ -122,17 +153,32 @@ mod tests {
     }
 
     #[test]
+    fn a_line_has_two_sides_of_a_plane() {
+        let down = ray([0.0, 0.0, 3.0], [0.0, 0.1, -2.0]);
+        let side = |t| plane_side(&down, [0.0, 0.0, 7.0], 7.0, t);
+        assert_eq!(side(1.0), Some(Ordering::Equal));
+        assert_eq!(side(1f64.next_down()), Some(Ordering::Greater));
+        assert_eq!(side(1f64.next_up()), Some(Ordering::Less));
+        assert_eq!(side(f64::NAN), None);
+    }
+
+    #[test]
     fn tiers_agree_and_powers_of_two_change_nothing() {
-        let mut rng = fastrand::Rng::with_seed(1);
-        for k in 0..30_000 {
-            let radius = if k % 2 == 0 { 3 } else { 1 << 23 };
-            let (ray, normal) = (lattice_ray(&mut rng, radius), lattice_point(&mut rng, radius));
+        on_lattices(1, 30_000, [3, 1 << 23], |rng, radius, ray| {
+            let normal = lattice_point(rng, radius);
             let offset = f64::from(rng.i32(-9..=9)) / 4.0;
             let verdict = plane(&ray, normal, offset);
             if let Some(case) = Case::new(&ray, normal, offset) {
-                assert!(fits_i128(case.bits()));
-                assert_eq!(case.verdict::<i128>(), verdict);
-                assert_eq!(case.verdict::<BigInt>(), verdict);
+                assert_tiers_agree(&case);
+            }
+            // Between two sides, or on one, the plane is met.
+            let at = |t| plane_side(&ray, normal, offset, t);
+            if let (Some(a), Some(b)) = (at(ray.t_min), at(ray.t_max))
+                && ray.t_min.is_finite()
+                && ray.t_max.is_finite()
+                && ray.t_min <= ray.t_max
+            {
+                assert_eq!(a == b && a.is_ne(), verdict == PlaneVerdict::Miss);
             }
             let scaled = Ray { origin: ray.origin.map(|x| x * 2f64.powi(70)), ..ray };
             let scaled = Ray { direction: ray.direction.map(|x| x * 2f64.powi(70)), ..scaled };
@@ -140,20 +186,17 @@ mod tests {
                 plane(&scaled, normal.map(|x| x * 2f64.powi(-90)), offset * 2f64.powi(-20)),
                 verdict
             );
-        }
+        });
     }
 
     #[test]
     fn the_fast_tier_holds_the_largest_numbers_it_admits() {
-        let mut rng = fastrand::Rng::with_seed(14);
         for (points, directions, normals) in [(63, 60, 60), (57, 61, 62)] {
-            for _ in 0..3_000 {
-                let mut extreme = |bits| extreme_point(&mut rng, bits);
+            assert_limit_holds(14, 3_000, |rng| {
+                let mut extreme = |bits| extreme_point(rng, bits);
                 let ray = ray(extreme(points), extreme(directions)).with_range(-INF, INF);
-                let case = Case::new(&ray, extreme(normals), 0.0).unwrap();
-                assert_eq!(case.bits(), 127);
-                assert_eq!(case.verdict::<i128>(), case.verdict::<BigInt>());
-            }
+                Case::new(&ray, extreme(normals), 0.0).expect("valid")
+            });
         }
     }
 }

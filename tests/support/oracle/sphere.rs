@@ -2,26 +2,19 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
-
 use super::integer::{Integer, Ratio, dot};
-use super::{Frame, Ray, fits_i128, is_finite};
+use super::{Frame, Query, Ray, decide, is_finite};
 
 /// Whether a ray meets the surface of a sphere; a radius of zero is the point, a negative one a miss.
 #[must_use]
 pub fn sphere(ray: &Ray, center: [f64; 3], radius: f64) -> bool {
-    match Case::new(ray, center, radius) {
-        Some(case) if fits_i128(case.bits()) => case.hits::<i128>(),
-        Some(case) => case.hits::<BigInt>(),
-        None => false,
-    }
+    Case::new(ray, center, radius).is_some_and(|case| decide(&case))
 }
 
 /// Whether the point of the line at a finite t lies inside of the sphere (less), on it, or outside (greater).
 #[must_use]
 pub fn sphere_side(ray: &Ray, center: [f64; 3], radius: f64, t: f64) -> Option<Ordering> {
-    let case = Case::new(&ray.with_range(t, t), center, radius)?;
-    Some(if fits_i128(case.bits()) { case.side::<i128>() } else { case.side::<BigInt>() }.cmp(&0))
+    Case::new(&ray.with_range(t, t), center, radius).map(|case| decide(&Side(case)))
 }
 
 struct Case {
@@ -36,6 +29,10 @@ impl Case {
         let frame = || Frame::new(ray, [center, [radius; 3]]);
         (ray.is_valid() && is_sphere).then(|| Self { center, radius, frame: frame() })
     }
+}
+
+impl Query for Case {
+    type Answer = bool;
 
     fn bits(&self) -> u32 {
         let (p, d) = (self.frame.points.bits, self.frame.directions.bits);
@@ -45,7 +42,7 @@ impl Case {
         quadratic.max(discriminant)
     }
 
-    fn hits<I: Integer>(&self) -> bool {
+    fn answer<I: Integer>(&self) -> bool {
         let quadratic = Quadratic::<I>::new(self);
         let range = self.frame.range();
         let (first, last) = (quadratic.sign_at(&range.enter), quadratic.sign_at(&range.exit));
@@ -58,10 +55,20 @@ impl Case {
             && (b.clone() * &b - a.clone() * &c).signum() >= 0
             && range.contains(&Ratio::new(b, a))
     }
+}
 
-    /// The sign at the first t of the range.
-    fn side<I: Integer>(&self) -> i32 {
-        Quadratic::<I>::new(self).sign_at(&self.frame.range().enter)
+/// The side of the surface on which the first t of the range lies.
+struct Side(Case);
+
+impl Query for Side {
+    type Answer = Ordering;
+
+    fn bits(&self) -> u32 {
+        self.0.bits()
+    }
+
+    fn answer<I: Integer>(&self) -> Ordering {
+        Quadratic::<I>::new(&self.0).sign_at(&self.0.frame.range().enter).cmp(&0)
     }
 }
 
@@ -90,7 +97,9 @@ impl<I: Integer> Quadratic<I> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{lattice_point, lattice_ray};
+    use super::super::{
+        assert_limit_holds, assert_tiers_agree, extreme_point, lattice_point, on_lattices,
+    };
     use super::*;
 
     const INF: f64 = f64::INFINITY;
@@ -143,26 +152,30 @@ mod tests {
 
     #[test]
     fn tiers_agree_and_powers_of_two_change_nothing() {
-        let mut rng = fastrand::Rng::with_seed(2);
-        for k in 0..30_000 {
-            let radius = if k % 2 == 0 { 3 } else { 1 << 22 };
-            let (ray, center) = (lattice_ray(&mut rng, radius), lattice_point(&mut rng, radius));
+        on_lattices(2, 30_000, [3, 1 << 22], |rng, radius, ray| {
+            let center = lattice_point(rng, radius);
             let r = f64::from(rng.i32(-1..=radius));
             let hits = sphere(&ray, center, r);
             if let Some(case) = Case::new(&ray, center, r) {
-                assert!(fits_i128(case.bits()));
-                assert_eq!(case.hits::<i128>(), hits);
-                assert_eq!(case.hits::<BigInt>(), hits);
+                assert_tiers_agree(&case);
+                assert_tiers_agree(&Side(case));
             }
             let scale = |p: [f64; 3]| p.map(|x| x * 2f64.powi(-200));
             let scaled = Ray { origin: scale(ray.origin), direction: scale(ray.direction), ..ray };
             assert_eq!(sphere(&scaled, scale(center), r * 2f64.powi(-200)), hits);
-            // Reversed: t counts the other way.
-            let back = Ray {
-                direction: ray.direction.map(|x| -x),
-                ..ray.with_range(-ray.t_max, -ray.t_min)
-            };
-            assert_eq!(sphere(&back, center, r), hits);
+            assert_eq!(sphere(&ray.reversed(), center, r), hits);
+        });
+    }
+
+    #[test]
+    fn the_fast_tier_holds_the_largest_numbers_it_admits() {
+        for (points, directions, t) in [(58, 1, 2), (30, 29, 30)] {
+            assert_limit_holds(15, 3_000, |rng| {
+                let (origin, center) = (extreme_point(rng, points), extreme_point(rng, points));
+                let t = 2f64.powi(t) - 1.0;
+                let ray = ray(origin, extreme_point(rng, directions)).with_range(-t, t);
+                Case::new(&ray, center, 2f64.powi(points).next_down().floor()).expect("valid")
+            });
         }
     }
 }

@@ -211,7 +211,7 @@ impl<'a, I: Integer> Case<'a, I> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{lattice_point, lattice_ray};
+    use super::super::{lattice_point, on_lattices};
     use super::TriangleVerdict::*;
     use super::*;
 
@@ -328,11 +328,8 @@ mod tests {
 
     #[test]
     fn tiers_agree_and_symmetries_change_nothing() {
-        let mut rng = fastrand::Rng::with_seed(4);
-        for k in 0..40_000 {
-            let radius = if k % 2 == 0 { 2 } else { 1 << 23 };
-            let ray = lattice_ray(&mut rng, radius);
-            let [a, b, c] = [(); 3].map(|()| lattice_point(&mut rng, radius));
+        on_lattices(4, 40_000, [2, 1 << 23], |rng, radius, ray| {
+            let [a, b, c] = [(); 3].map(|()| lattice_point(rng, radius));
             let verdict = triangle(&ray, [a, b, c]);
             if ray.is_valid() {
                 let frame = Frame::new(&ray, [a, b, c]);
@@ -355,18 +352,14 @@ mod tests {
             let turn = |[x, y, z]: [f64; 3]| [y, z, x].map(|x| x * 2f64.powi(-400));
             let turned = Ray { origin: turn(ray.origin), direction: turn(ray.direction), ..ray };
             assert_eq!(triangle(&turned, [a, b, c].map(turn)), verdict);
-            let back = Ray {
-                direction: ray.direction.map(|x| -x),
-                ..ray.with_range(-ray.t_max, -ray.t_min)
-            };
-            assert_eq!(triangle(&back, [a, b, c]), verdict);
+            assert_eq!(triangle(&ray.reversed(), [a, b, c]), verdict);
             // The vertices mirrored in a plane, and a direction of another length.
             let half = Ray {
                 direction: ray.direction.map(|x| x / 2.0),
                 ..ray.with_range(2.0 * ray.t_min, 2.0 * ray.t_max)
             };
             assert_eq!(triangle(&half, [a, b, c]), verdict);
-        }
+        });
     }
 
     #[test]

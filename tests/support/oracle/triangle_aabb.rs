@@ -2,7 +2,7 @@
 
 use num_bigint::BigInt;
 
-use super::integer::{Grid, Integer, Vector, cross, dot, sub};
+use super::integer::{Grid, Integer, Ratio, Vector, cross, dot, sub};
 use super::{fits_i128, is_box, is_finite};
 
 /// Whether a closed triangle touches a closed box: no axis among the 13 candidates separates them.
@@ -40,6 +40,30 @@ pub fn triangle_aabb_clip(vertices: [[f64; 3]; 3], min: [f64; 3], max: [f64; 3])
     }
 }
 
+/// Whether on some axis among the 13 candidates a closed triangle and a bounded closed box are further apart than its margin,
+/// which is zero for the box's own axes. A negative margin asks whether they overlap by less than that.
+#[must_use]
+pub fn triangle_aabb_apart(
+    vertices: [[f64; 3]; 3],
+    min: [f64; 3],
+    max: [f64; 3],
+    edge_margin: f64,
+    normal_margin: f64,
+) -> bool {
+    let grid = grid(vertices, min, max);
+    let axes = Axes::<BigInt>::new(vertices, min, max, grid);
+    let exceeds = |axis: &Vector<BigInt>, margin: f64| {
+        // The gap is in proportion to the length of the axis: compared with signed squares.
+        let margin = Ratio::<BigInt>::from_float(margin, -grid.exponent);
+        let gap = axes.gap(axis) * &margin.den;
+        let square = |x: &BigInt| x * x * x.signum();
+        square(&gap) > square(&margin.num) * dot(axis, axis)
+    };
+    axes.own.iter().any(|axis| axes.gap(axis) > BigInt::from(0))
+        || axes.crosses.iter().any(|axis| exceeds(axis, edge_margin))
+        || exceeds(&axes.normal, normal_margin)
+}
+
 /// The grid through all finite coordinates.
 fn grid([a, b, c]: [[f64; 3]; 3], min: [f64; 3], max: [f64; 3]) -> Grid {
     Grid::through([a, b, c, min, max].as_flattened())
@@ -70,31 +94,48 @@ fn overlap_by_axes<I: Integer>(
     max: [f64; 3],
     grid: Grid,
 ) -> bool {
-    let vertices = vertices.map(|v| grid.vector::<I>(v));
-    let (min, max) = (grid.vector(min), grid.vector(max));
-    let unit = [0, 1, 2].map(unit::<I>);
-    let edges = [0, 1, 2].map(|k| sub(&vertices[(k + 1) % 3], &vertices[k]));
-    let crosses = edges.iter().flat_map(|edge| unit.iter().map(|axis| cross(edge, axis)));
-    let normal = cross(&edges[0], &edges[1]);
+    let axes = Axes::<I>::new(vertices, min, max, grid);
     // A zero axis projects everything to zero and separates nothing.
-    !crosses.chain([normal]).chain(unit.clone()).any(|axis| separates(&axis, &vertices, &min, &max))
+    let mut all = axes.crosses.iter().chain([&axes.normal]).chain(&axes.own);
+    !all.any(|axis| axes.gap(axis).signum() > 0)
 }
 
-/// Whether the projections of triangle and box on an axis are disjoint.
-fn separates<I: Integer>(
-    axis: &Vector<I>,
-    vertices: &[Vector<I>; 3],
-    min: &Vector<I>,
-    max: &Vector<I>,
-) -> bool {
-    let [a, b, c] = vertices.each_ref().map(|v| dot(axis, v));
-    let positive = axis.each_ref().map(|x| x.signum() > 0);
-    let first: Vector<I> =
-        std::array::from_fn(|k| if positive[k] { min[k].clone() } else { max[k].clone() });
-    let last: Vector<I> =
-        std::array::from_fn(|k| if positive[k] { max[k].clone() } else { min[k].clone() });
-    let (low, high) = ((&a).min(&b).min(&c), (&a).max(&b).max(&c));
-    *high < dot(axis, &first) || dot(axis, &last) < *low
+/// The candidates for a separating axis, and what they are to separate.
+struct Axes<I> {
+    vertices: [Vector<I>; 3],
+    min: Vector<I>,
+    max: Vector<I>,
+    /// Each edge of the triangle times each of the box.
+    crosses: [Vector<I>; 9],
+    normal: Vector<I>,
+    /// The box's own.
+    own: [Vector<I>; 3],
+}
+
+impl<I: Integer> Axes<I> {
+    fn new(vertices: [[f64; 3]; 3], min: [f64; 3], max: [f64; 3], grid: Grid) -> Self {
+        let vertices = vertices.map(|v| grid.vector::<I>(v));
+        let (min, max) = (grid.vector(min), grid.vector(max));
+        let own = [0, 1, 2].map(unit::<I>);
+        let edges = [0, 1, 2].map(|k| sub(&vertices[(k + 1) % 3], &vertices[k]));
+        let crosses = std::array::from_fn(|k| cross(&edges[k / 3], &own[k % 3]));
+        let normal = cross(&edges[0], &edges[1]);
+        Self { vertices, min, max, crosses, normal, own }
+    }
+
+    /// The distance between the projections of triangle and box on an axis, times its length; negative where they overlap.
+    fn gap(&self, axis: &Vector<I>) -> I {
+        let [a, b, c] = self.vertices.each_ref().map(|v| dot(axis, v));
+        let end = |last: bool| {
+            let upper = axis.each_ref().map(|x| (x.signum() > 0) == last);
+            let corner: Vector<I> = std::array::from_fn(|k| {
+                if upper[k] { self.max[k].clone() } else { self.min[k].clone() }
+            });
+            dot(axis, &corner)
+        };
+        let (low, high) = ((&a).min(&b).min(&c), (&a).max(&b).max(&c));
+        (end(false) - high).max(low.clone() - &end(true))
+    }
 }
 
 /// A corner of the clipped polygon and the line of the edge that leaves it.
@@ -219,6 +260,18 @@ mod tests {
             overlapping += u32::from(overlaps(vertices, min, max));
         }
         assert!((50_000..200_000).contains(&overlapping), "{overlapping}");
+    }
+
+    #[test]
+    fn distances_along_axes_are_measured() {
+        // 3-4-5: the edge from (4, 0) to (0, 3) passes the origin at 2.4.
+        let slanted = [[4.0, 0.0, -9.0], [0.0, 3.0, -9.0], [2.0, 1.5, 9.0]];
+        let apart = |edge, normal| triangle_aabb_apart(slanted, [-1.0; 3], [0.0; 3], edge, normal);
+        assert!(apart(2.375, 9.0) && apart(9.0, 2.375), "the normal has the same direction");
+        assert!(!apart(2.5, 2.5));
+        // On the normal and on the edge's axis the box [0, 1]³ overlaps that plane by 1.4, on the box's own axes by 1.
+        let into = |edge, normal| triangle_aabb_apart(slanted, [1.0; 3], [2.0; 3], edge, normal);
+        assert!(into(-1.5, 0.0) && into(0.0, -1.5) && !into(-0.125, -0.375));
     }
 
     #[test]
