@@ -91,12 +91,13 @@ fn triangles() {
     for_every_vector!(check);
 }
 
-/// The bounds are about rounding, not about underflow: where t, or a length that matters, is subnormal they do not count.
+/// The bounds are about rounding, not about underflow: where t, a weight, or a length that matters, is subnormal they do not
+/// count.
 fn in_exponent_range<V: Vector>(ray: &oracle::Ray, vertices: &Vertices, bound: &Bound) -> bool {
     let tiny: f64 = <V::Scalar as Scalar>::MIN_POSITIVE.into();
-    let all = vertices.as_flattened().iter().chain(&ray.origin).chain(&ray.direction);
-    let smallest = all.filter(|x| **x != 0.0).fold(INFINITY, |m, x| m.min(x.abs()));
-    bound.t.is_finite() && smallest > tiny
+    let lengths = vertices.as_flattened().iter().chain(&ray.origin).chain(&ray.direction);
+    let errors = bound.weights.iter().chain([&bound.t]);
+    bound.t.is_finite() && lengths.chain(errors).all(|&x| x == 0.0 || x.abs() > tiny)
 }
 
 /// A sphere's radius as far off as a kernel's documentation allows, either way.

@@ -78,8 +78,8 @@ pub fn moller_trumbore(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]
     let bound =
         |p_numerator: f64, value: f64| 10.0 * unit * (p_numerator + value.abs() * p_det) / det;
     let t = dot(&e2, &cross(&s, &e1)) / det;
-    let u = bound(permanent(&s, &d, &e2), 1.0);
-    let v = bound(permanent(&d, &s, &e1), 1.0);
+    let u = bound(permanent(&s, &d, &e2), dot(&e2, &cross(&s, &d)) / det);
+    let v = bound(permanent(&s, &d, &e1), dot(&e1, &cross(&s, &d)) / det);
     Some(with_margin(bound(permanent(&e2, &s, &e1), t), [u + v + 4.0 * unit, u, v]))
 }
 
@@ -119,7 +119,7 @@ pub fn badouel(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Opt
     Some(with_margin(t_error, [u + v + 4.0 * unit, u, v]))
 }
 
-/// 12u·(P_i + |λ_i|·Σ P_j) / |Σ s| for each weight, and what it adds to t.
+/// 12u·(P_i + Σ P_j) / |Σ s| for each weight, and what it adds to t.
 pub fn segura(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Option<Bound> {
     let a: [Vec3; 3] = std::array::from_fn(|i| sub(&triangle[i], &ray.origin));
     let d = ray.direction;
@@ -157,7 +157,7 @@ pub fn watertight(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> 
     if error > sum / 16.0 {
         return None;
     }
-    let weights = areas.map(|(_, own)| (own + error) / sum + 3.0 * unit);
+    let weights = areas.map(|(area, own)| (own + error * area.abs() / sum) / sum + 3.0 * unit);
     let t = (0..3).map(|i| (weights[i] + 9.0 * unit) * (a[i][axis] / d[axis]).abs()).sum();
     Some(with_margin(t, weights))
 }

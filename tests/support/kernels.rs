@@ -56,7 +56,7 @@ pub fn sphere_kernels<V: Vector>() -> [SphereKernel<V>; 3] {
         SphereKernel {
             name: "geometric",
             intersect: sphere::geometric::intersect,
-            error: |u, f, r| (16.0 * u * (f * f + r * r), 6.0 * u * (f + r)),
+            error: |u, f, r| (16.0 * u * f * f, 6.0 * u * (f + r)),
         },
         SphereKernel {
             name: "robust",
