@@ -1,14 +1,17 @@
 //! Claim: what a hit says is consistent in itself, whatever the shape; and shapes keep their own promises.
 
+use std::sync::Arc;
+
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use isect::glam::{Affine3A, DAffine3, DVec3, EulerRot, Mat4, Quat, Vec3, Vec3A};
 use isect::ray::aabb::{BoxRay, slab};
 use isect::ray::plane::{self, PlaneHit};
 use isect::ray::sphere;
-use isect::{Aabb, Plane, Ray, Scalar, Sphere, Triangle, Vector};
+use isect::{Aabb, Intersect, Plane, Ray, Scalar, Sphere, Triangle, Vector};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
+use crate::bounds::check_triangle;
 use crate::support::bounds::unit_roundoff;
 use crate::support::kernels::{sphere_kernels, triangle_kernels};
 use crate::support::{
@@ -78,21 +81,41 @@ proptest! {
         for_every_vector!(check, &exact_ray, &vertices);
     }
 
-    /// The default kernel of a triangle, `hits` and the hit agree; the hit is the same through a reference and a `Box`.
+    /// The two that bring a `hits` of their own: a box, also for ranges that end where it is entered and left, where rounding
+    /// could tell the two apart; and pointers, which must pass on that of their shape.
     #[test]
-    fn any_hit_is_a_closest_hit(exact_ray in rays(), vertices in [point(), point(), point()], radius in 0.0..4.0_f32) {
-        fn check<V: Vector>(exact_ray: &oracle::Ray, vertices: &[[f64; 3]; 3], radius: f32) {
-            let ray = ray::<V>(exact_ray);
-            let shape = triangle::<V>(vertices);
-            assert_eq!(ray.hits(&shape), ray.intersect(&shape).is_some());
-            assert_eq!(ray.intersect(&&shape), ray.intersect(&shape));
-            assert_eq!(ray.intersect(&Box::new(shape)), ray.intersect(&shape));
-            let bounds = shape.aabb();
-            assert_eq!(ray.hits(&bounds), ray.intersect(&bounds).is_some());
-            let ball = sphere_of::<V>(&vertices[0], radius.into());
-            assert_eq!(ray.hits(&ball), ray.intersect(&ball).is_some());
+    fn any_hit_is_a_closest_hit(exact_ray in rays(), a in point(), b in point()) {
+        /// A shape whose two answers differ.
+        struct Marked;
+
+        impl<V: Vector> Intersect<V> for Marked {
+            type Hit = u8;
+            fn intersect(&self, _: &Ray<V>) -> Option<u8> {
+                Some(7)
+            }
+            fn hits(&self, _: &Ray<V>) -> bool {
+                false
+            }
         }
-        for_every_vector!(check, &exact_ray, &vertices, radius);
+
+        fn check<V: Vector>(exact_ray: &oracle::Ray, a: &[f64; 3], b: &[f64; 3]) {
+            let ray = ray::<V>(exact_ray);
+            let shape = Aabb::from_points([vector::<V>(*a), vector(*b)]);
+            let hit = ray.intersect(&shape);
+            assert_eq!(ray.hits(&shape), hit.is_some());
+            if let Some(hit) = hit {
+                for t in [hit.t_enter, hit.t_exit] {
+                    for ray in [ray.with_range(ray.t_min, t), ray.with_range(t, ray.t_max), ray.before(t), ray.after(t)] {
+                        assert_eq!(ray.hits(&shape), ray.intersect(&shape).is_some());
+                    }
+                }
+            }
+            let pointers: [&dyn Intersect<V, Hit = u8>; 3] = [&&Marked, &Box::new(Marked), &Arc::new(Marked)];
+            for pointer in pointers {
+                assert_eq!((ray.intersect(pointer), ray.hits(pointer)), (Some(7), false));
+            }
+        }
+        for_every_vector!(check, &exact_ray, &a, &b);
     }
 
     /// `after` and `before` open the range: the hit that was found is no longer in it.
@@ -229,7 +252,8 @@ proptest! {
         }
     }
 
-    /// A ray and its image meet a shape and its image at the same t.
+    /// A ray and its image meet a shape and its image at the same t: each to the bound of the kernel, which decides the
+    /// verdict too.
     #[test]
     fn t_keeps_its_meaning_in_another_space(vertices in [point(), point(), point()], shift in [-4..4_i8, -4..4_i8, -4..4_i8]) {
         // Powers of two and integers: the map is exact.
@@ -239,13 +263,25 @@ proptest! {
         let ray = Ray::new(Vec3A::new(0.25, 0.5, 8.0), Vec3A::new(0.0, 0.25, -1.0));
         let image = ray.transformed(&map);
         prop_assert_eq!(image.at(2.0), map_point(ray.at(2.0)));
-        let [here, there] = [
-            ray.intersect(&Triangle::new(a, b, c)).map(|hit| hit.t),
-            image.intersect(&Triangle::new(map_point(a), map_point(b), map_point(c))).map(|hit| hit.t),
-        ];
-        if let (Some(here), Some(there)) = (here, there) {
-            // Each t is within the watertight bound, which is 15u of |z| ≤ 72 for coordinates of at most 72·4.
-            prop_assert!((here - there).abs() <= 64.0 * f32::EPSILON * 72.0 * 4.0, "{here} {there}");
+        let [here, there] = [(ray, [a, b, c]), (image, [a, b, c].map(map_point))].map(|(ray, vertices)| {
+            let exact_ray = oracle::Ray {
+                origin: array(ray.origin),
+                direction: array(ray.direction),
+                t_min: 0.0,
+                t_max: f64::INFINITY,
+            };
+            (exact_ray, vertices.map(array), ray.intersect(&Triangle::from(vertices)).map(|hit| f64::from(hit.t)))
+        });
+        prop_assert_eq!(oracle::triangle(&here.0, here.1), oracle::triangle(&there.0, there.1));
+        let [_, _, _, watertight] = triangle_kernels::<Vec3A>();
+        let unit = unit_roundoff::<f32>();
+        let bounds = [&here, &there].map(|(ray, vertices, _)| (watertight.bound)(unit, ray, vertices));
+        if let [Some(bound_here), Some(bound_there)] = bounds {
+            check_triangle(&watertight, &here.0, here.1, bound_here);
+            check_triangle(&watertight, &there.0, there.1, bound_there);
+            if let (Some(t), Some(image_t)) = (here.2, there.2) {
+                prop_assert!((t - image_t).abs() <= bound_here.t + bound_there.t, "{t} {image_t}");
+            }
         }
     }
 
@@ -267,8 +303,8 @@ proptest! {
         for_every_vector!(check, &points, &probe);
     }
 
-    /// `Vec3` and `Vec3A` are two layouts of the same numbers; f64 has the f32 verdict where a bound decides it, and on
-    /// boxes with few bits always.
+    /// `Vec3` and `Vec3A` are two layouts of the same numbers, which `DVec3` holds too; and its verdict on a triangle is that
+    /// of `f32` where the bound of `f32` decides.
     #[test]
     fn conversions_lose_nothing(exact_ray in rays(), vertices in [point(), point(), point()]) {
         let (a, b) = (ray::<Vec3>(&exact_ray), ray::<Vec3A>(&exact_ray));
@@ -280,5 +316,11 @@ proptest! {
         prop_assert_eq!(s.aabb(), Aabb::<Vec3>::from(t.aabb()));
         let (min, max) = (array(t.aabb().min), array(t.aabb().max));
         prop_assert_eq!(aabb::<Vec3>(&min, &max), s.aabb());
+        let narrow = triangle_kernels::<Vec3>();
+        for (narrow, wide) in narrow.iter().zip(triangle_kernels::<DVec3>()) {
+            let Some(bound) = (narrow.bound)(unit_roundoff::<f32>(), &exact_ray, &vertices) else { continue };
+            check_triangle(narrow, &exact_ray, vertices, bound);
+            check_triangle(&wide, &exact_ray, vertices, bound);
+        }
     }
 }
