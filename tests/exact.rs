@@ -1,13 +1,18 @@
 //! Claim: the exact kernels' verdicts are those of exact arithmetic, for every finite input.
 
+use std::cmp::Ordering;
+
+use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::overlap::triangle_aabb::exact as overlap_exact;
 use isect::ray::aabb::{BoxRay, conservative, exact as box_exact};
+use isect::ray::plane::{PlaneHit, exact as plane_exact};
+use isect::ray::sphere::exact as sphere_exact;
 use isect::ray::triangle::exact::{self, Verdict};
-use isect::{Number, Ray, Scalar, Vector};
+use isect::{Number, Plane, Ray, Scalar, Vector};
 
 use crate::support::oracle::TriangleVerdict;
 use crate::support::{
-    aabb, for_every_vector, generators, meshes, name, oracle, ray, scalar, triangle, vector,
+    aabb, for_every_vector, generators, meshes, name, oracle, ray, scalar, sphere, triangle, vector,
 };
 
 const SEED: u64 = 11;
@@ -136,13 +141,15 @@ fn crossings_of_closed_meshes_have_the_right_parity() {
             }
             assert_eq!(of_line, 0, "{} {ray:?}", name::<V>());
             assert_eq!(of_parts, from_origin as usize, "{} {ray:?} {split:?}", name::<V>());
-            // An origin on the surface is where it is moved to.
-            let on_surface = |t| exact::hits(&ray.with_range(scalar(0.0), scalar(0.0)), t);
-            if triangles.iter().any(on_surface) {
-                continue;
-            }
             if let Some(expected) = is_inside(origin) {
-                assert_eq!(from_origin % 2 == 1, expected, "{} {ray:?}", name::<V>());
+                // An origin on the surface is where it is moved to.
+                let at_origin = ray.with_range(V::Scalar::ZERO, V::Scalar::ZERO);
+                let is_right = (from_origin % 2 == 1) == expected;
+                assert!(
+                    is_right || triangles.iter().any(|t| exact::hits(&at_origin, t)),
+                    "{} {ray:?}",
+                    name::<V>()
+                );
             }
             inside += from_origin % 2;
             on_edges += u32::from(touched > 0);
@@ -152,14 +159,18 @@ fn crossings_of_closed_meshes_have_the_right_parity() {
     }
     let cube = meshes::lattice_cube(2);
     let in_cube = |p: [f64; 3]| Some(p.iter().all(|x| (0.0..2.0).contains(x)));
-    for_every_vector!(check, &cube, 100_000, in_cube);
+    check::<Vec3>(&cube, 100_000, in_cube);
+    check::<Vec3A>(&cube, 5_000, in_cube);
+    check::<DVec3>(&cube, 100_000, in_cube);
     // The facets lie between a sphere of radius 0.79 and that of the vertices.
     let sphere = meshes::icosphere(0);
     let in_sphere = |p: [f64; 3]| {
         let square = p.iter().map(|x| x * x).sum::<f64>();
         if square < 0.62 { Some(true) } else { (square > 1.0).then_some(false) }
     };
-    for_every_vector!(check, &sphere, 100_000, in_sphere);
+    check::<Vec3>(&sphere, 100_000, in_sphere);
+    check::<Vec3A>(&sphere, 5_000, in_sphere);
+    check::<DVec3>(&sphere, 100_000, in_sphere);
 }
 
 #[test]
@@ -306,6 +317,207 @@ fn box_hits_agree_with_the_oracle() {
         }
         println!("{:<6} 400000 cases, {touching} hit, {lowered} up to the entry", name::<V>());
         assert!((100_000..300_000).contains(&touching) && lowered > 20_000, "{touching} {lowered}");
+    }
+    for_every_vector!(check);
+}
+
+#[test]
+fn plane_verdicts_agree_with_the_oracle() {
+    fn check<V: Vector>() {
+        let mut rng = fastrand::Rng::with_seed(SEED + 5);
+        let mut counts = [0_u32; 3];
+        for _ in 0..300_000 {
+            let (mut case, normal, offset) = generators::ray_plane(&mut rng);
+            let (points, direction) = magnify::<V>(&mut rng);
+            case.origin = scaled_exactly::<V>(case.origin, points);
+            case.direction = scaled_exactly::<V>(case.direction, direction);
+            [case.t_min, case.t_max, _] =
+                scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
+            let offset = exactly::<V>(offset * points);
+            let plane = Plane::<V> { normal: vector(normal), offset: scalar(offset) };
+            let verdict = plane_exact::classify(&ray(&case), &plane);
+            let (kind, expected) = match oracle::plane(&case, normal, offset) {
+                oracle::PlaneVerdict::Miss => (0, None),
+                oracle::PlaneVerdict::At => (1, Some(PlaneHit::At(()))),
+                oracle::PlaneVerdict::Contained => (2, Some(PlaneHit::Contained)),
+            };
+            assert_eq!(verdict, expected, "{} {case:?} {normal:?} {offset}", name::<V>());
+            counts[kind] += 1;
+        }
+        println!("{:<6} miss, at, contained: {counts:?}", name::<V>());
+        assert!(counts.iter().all(|&count| count > 4_000), "{counts:?}");
+    }
+    for_every_vector!(check);
+}
+
+/// Each root is looked for where the oracle sees the sphere's inside, surface and outside, and the slope of the distance
+/// tells the two outsides apart.
+#[test]
+fn sphere_roots_agree_with_the_oracle() {
+    fn check<V: Vector>() {
+        let mut rng = fastrand::Rng::with_seed(SEED + 6);
+        let (mut hits, mut between, mut missed) = (0_u32, 0_u32, 0_u32);
+        for _ in 0..300_000 {
+            let (mut case, center, radius) = generators::ray_sphere(&mut rng);
+            let (points, direction) = magnify::<V>(&mut rng);
+            case.origin = scaled_exactly::<V>(case.origin, points);
+            case.direction = scaled_exactly::<V>(case.direction, direction);
+            [case.t_min, case.t_max, _] =
+                scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
+            let center = scaled_exactly::<V>(center, points);
+            let radius = exactly::<V>(radius * points);
+            let (ray, sphere) = (ray::<V>(&case), sphere::<V>(&center, radius));
+            let context = || format!("{} {case:?} {center:?} {radius}", name::<V>());
+            let expected = oracle::sphere(&case, center, radius);
+            assert_eq!(sphere_exact::hits(&ray, &sphere), expected, "{}", context());
+            hits += u32::from(expected);
+            let line = oracle::Ray { t_min: f64::NEG_INFINITY, t_max: f64::INFINITY, ..case };
+            let of_line = oracle::sphere(&line, center, radius);
+            let roots = sphere_exact::classify(&ray, &sphere);
+            let has_range = case.t_min <= case.t_max;
+            assert_eq!(roots.is_some(), of_line && has_range, "{}", context());
+            let Some([near, far]) = roots else {
+                missed += 1;
+                continue;
+            };
+            assert!(near <= far);
+            // Roots up to an end of the range, by the oracle: none, the near one, or both.
+            let before = oracle::Ray { t_min: f64::NEG_INFINITY, t_max: case.t_min, ..case };
+            let after = oracle::Ray { t_min: case.t_max, t_max: f64::INFINITY, ..case };
+            let side = |t| oracle::sphere_side(&line, center, radius, t);
+            if let Some(side) = side(case.t_min).filter(|_| case.t_min.is_finite()) {
+                let starts = oracle::sphere(&before, center, radius) && side != Ordering::Equal;
+                assert_eq!(
+                    (near, far) == (Ordering::Less, Ordering::Less),
+                    starts && side == Ordering::Greater,
+                    "{}",
+                    context()
+                );
+                assert!(
+                    side != Ordering::Less || (near == Ordering::Less && far != Ordering::Less)
+                );
+                between += u32::from(side == Ordering::Less);
+            }
+            if let Some(side) = side(case.t_max).filter(|_| case.t_max.is_finite()) {
+                let ends = oracle::sphere(&after, center, radius) && side == Ordering::Greater;
+                assert_eq!(
+                    (near, far) == (Ordering::Greater, Ordering::Greater),
+                    ends,
+                    "{}",
+                    context()
+                );
+                assert!(
+                    side != Ordering::Less
+                        || (far == Ordering::Greater && near != Ordering::Greater)
+                );
+            }
+        }
+        println!(
+            "{:<6} 300000 cases: {hits} hit, {between} begin inside, {missed} lines miss",
+            name::<V>()
+        );
+        assert!(hits > 50_000 && between > 10_000 && missed > 10_000, "{hits} {between} {missed}");
+    }
+    for_every_vector!(check);
+}
+
+/// Numbers of which few are different, so that coordinates coincide: zeros, powers of two, any finite bits, now and then
+/// an infinity or a NaN.
+struct Pool([f64; 4]);
+
+impl Pool {
+    fn new<V: Vector>(rng: &mut fastrand::Rng) -> Self {
+        Self([(); 4].map(|()| match rng.u8(..8) {
+            0 => 0.0,
+            1 => exactly::<V>(2f64.powi(rng.i32(-1074..=1023))),
+            2 => exactly::<V>(f64::MAX),
+            3 if rng.u8(..8) == 0 => generators::hostile(rng),
+            _ if size_of::<V::Scalar>() == 4 => {
+                let x = f32::from_bits(rng.u32(..));
+                if x.is_finite() { x.into() } else { 1.0 }
+            }
+            _ => {
+                let x = f64::from_bits(rng.u64(..));
+                if x.is_finite() { x } else { 1.0 }
+            }
+        }))
+    }
+
+    fn number(&self, rng: &mut fastrand::Rng) -> f64 {
+        let x = self.0[rng.usize(..4)];
+        if rng.bool() { x } else { -x }
+    }
+
+    fn point(&self, rng: &mut fastrand::Rng) -> [f64; 3] {
+        [(); 3].map(|()| self.number(rng))
+    }
+}
+
+/// From the smallest numbers to the largest in one case, which takes the integers to their capacity.
+#[test]
+fn all_verdicts_agree_at_the_ends_of_the_exponents() {
+    fn check<V: Vector>() {
+        let mut rng = fastrand::Rng::with_seed(SEED + 7);
+        let mut counts = [0_u32; 5];
+        for _ in 0..40_000 {
+            let pool = Pool::new::<V>(&mut rng);
+            let (origin, direction) = (pool.point(&mut rng), pool.point(&mut rng));
+            let (t_min, t_max) = match rng.u8(..4) {
+                0 => (f64::NEG_INFINITY, f64::INFINITY),
+                1 => (pool.number(&mut rng), pool.number(&mut rng)),
+                2 => (f64::NEG_INFINITY, pool.number(&mut rng)),
+                _ => (0.0, f64::INFINITY),
+            };
+            let case = oracle::Ray { origin, direction, t_min, t_max };
+            let v = [(); 3].map(|()| pool.point(&mut rng));
+            let (a, b) = (pool.point(&mut rng), pool.point(&mut rng));
+            let min: [f64; 3] = std::array::from_fn(|k| a[k].min(b[k]));
+            let max: [f64; 3] = std::array::from_fn(|k| a[k].max(b[k]));
+            let radius = pool.number(&mut rng).abs();
+            let (ray, triangle, aabb) = (ray::<V>(&case), triangle(&v), aabb(&min, &max));
+            let context = || format!("{} {case:?} {v:?} {min:?} {max:?}", name::<V>());
+
+            let expected = oracle::triangle(&case, v);
+            let verdict = exact::classify(&ray, &triangle);
+            assert_eq!(verdict != Verdict::Miss, expected.hits(), "{}", context());
+            if let TriangleVerdict::Edge(i) = expected {
+                assert_eq!(verdict, Verdict::Edge(i));
+            }
+            let hit = exact::refine(&ray, &triangle);
+            let t = hit.t.into();
+            let is_between = (t_min <= t && t <= t_max) || verdict == Verdict::Miss;
+            assert!(is_between && t.is_finite(), "{}", context());
+            let weights: [f64; 3] = hit.barycentric().map(Into::into);
+            assert!(weights.iter().all(|w| (0.0..=1.0).contains(w)), "{} {hit:?}", context());
+            let _ = exact::crosses(&ray, &triangle);
+
+            let expected_box = oracle::aabb(&case, min, max);
+            assert_eq!(box_exact::hits(&BoxRay::new(&ray), &aabb), expected_box, "{}", context());
+            let expected_overlap = oracle::triangle_aabb_sat(v, min, max);
+            assert_eq!(
+                overlap_exact::overlaps(&triangle, &aabb),
+                expected_overlap,
+                "{}",
+                context()
+            );
+            let expected_sphere = oracle::sphere(&case, min, radius);
+            let sphere = sphere::<V>(&min, radius);
+            assert_eq!(sphere_exact::hits(&ray, &sphere), expected_sphere, "{}", context());
+            let plane = Plane { normal: vector::<V>(max), offset: scalar(radius) };
+            let on_plane = oracle::plane(&case, max, radius) != oracle::PlaneVerdict::Miss;
+            let verdict = plane_exact::classify(&ray, &plane);
+            assert_eq!(verdict.is_some(), on_plane, "{}", context());
+            let outcomes =
+                [expected.hits(), expected_box, expected_overlap, expected_sphere, on_plane];
+            for (count, outcome) in counts.iter_mut().zip(outcomes) {
+                *count += u32::from(outcome);
+            }
+        }
+        println!(
+            "{:<6} of 40000, hits of triangle, box, overlap, sphere, plane: {counts:?}",
+            name::<V>()
+        );
+        assert!(counts.iter().all(|&count| count > 1_000), "{counts:?}");
     }
     for_every_vector!(check);
 }

@@ -1,6 +1,6 @@
 //! A ray against a shape.
 //!
-//! One module per shape. A plane has one kernel; the others have a file per algorithm, named after
+//! One module per shape, with a file per algorithm, named after
 //! it, each with its grade, its bounds and its paper. [`Intersect`] is the door to the recommended
 //! kernel of each shape, and open to shapes of your own.
 

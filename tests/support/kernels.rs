@@ -1,7 +1,7 @@
 //! The algorithms of each pair: a new one is one line here, and every suite runs over it.
 
-use isect::overlap::triangle_aabb::{clip, sat};
-use isect::ray::aabb::{BoxRay, conservative, slab};
+use isect::overlap::triangle_aabb::{clip, exact as overlap_exact, sat};
+use isect::ray::aabb::{BoxRay, conservative, exact, slab};
 use isect::ray::sphere::{self, SphereHit};
 use isect::ray::triangle::watertight::{self, ShearedRay};
 use isect::ray::triangle::{TriangleHit, badouel, moller_trumbore, segura};
@@ -69,18 +69,19 @@ pub fn sphere_kernels<V: Vector>() -> [SphereKernel<V>; 3] {
 /// The yes-or-no of a ray/box kernel.
 pub type BoxKernel<V> = fn(&BoxRay<V>, &Aabb<V>) -> bool;
 
-pub fn box_kernels<V: Vector>() -> [(&'static str, BoxKernel<V>); 4] {
+pub fn box_kernels<V: Vector>() -> [(&'static str, BoxKernel<V>); 5] {
     [
         ("slab::hits", slab::hits),
         ("slab::intersect", |ray, aabb| slab::intersect(ray, aabb).is_some()),
         ("conservative::hits", conservative::hits),
         ("conservative::interval", |ray, aabb| conservative::interval(ray, aabb).is_some()),
+        ("exact::hits", exact::hits),
     ]
 }
 
 /// A triangle/box kernel.
 pub type OverlapKernel<V> = fn(&Triangle<V>, &Aabb<V>) -> bool;
 
-pub fn overlap_kernels<V: Vector>() -> [(&'static str, OverlapKernel<V>); 2] {
-    [("sat", sat::overlaps), ("clip", clip::overlaps)]
+pub fn overlap_kernels<V: Vector>() -> [(&'static str, OverlapKernel<V>); 3] {
+    [("sat", sat::overlaps), ("clip", clip::overlaps), ("exact", overlap_exact::overlaps)]
 }

@@ -1,15 +1,18 @@
 //! Ray against sphere.
 //!
-//! All three kernels solve d²·t² − 2(f·d)·t + f² − r² = 0, f the vector from the ray's origin to
+//! Three kernels solve d²·t² − 2(f·d)·t + f² − r² = 0, f the vector from the ray's origin to
 //! the centre; they differ in how they come to the roots.
+//! The last decides where the roots are without computing them.
 //!
 //! | kernel | construction | good for |
 //! |---|---|---|
 //! | [`robust`] | perpendicular distance, stable roots | everything; the default |
 //! | [`geometric`] | closest approach and half chord | rays that start within a few hundred radii |
 //! | [`algebraic`] | the quadratic formula | the same |
+//! | [`exact`] | signs of integers | a certain yes or no |
 
 pub mod algebraic;
+pub mod exact;
 pub mod geometric;
 pub mod robust;
 

@@ -1,4 +1,8 @@
 //! Ray against plane: t = (offset − n·o) / (n·d).
+//!
+//! [`intersect`] is fast; [`exact`] is certain.
+
+pub mod exact;
 
 use super::{Intersect, in_range};
 use crate::shape::{Plane, Ray};
