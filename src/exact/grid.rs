@@ -1,6 +1,6 @@
 //! Floats as integers: a grid is a power of two of which all values of a group are multiples.
 
-use super::integer::Int;
+use super::integer::Integer;
 
 /// A finite float taken apart: ±`mantissa` · 2^`exponent`.
 #[derive(Clone, Copy)]
@@ -90,19 +90,20 @@ impl Grid {
 
     /// A value of the group, counted in steps of the grid.
     #[inline]
-    pub(crate) fn integer<const L: usize>(self, x: f64) -> Int<L> {
-        Int::from_float(x, self.exponent())
+    pub(crate) fn integer<I: Integer>(self, x: f64) -> I {
+        I::from_float(x, self.exponent())
     }
 
     /// A point of the group, counted in steps of the grid.
     #[inline]
-    pub(crate) fn vector<const L: usize>(self, [x, y, z]: [f64; 3]) -> [Int<L>; 3] {
+    pub(crate) fn vector<I: Integer>(self, [x, y, z]: [f64; 3]) -> [I; 3] {
         [self.integer(x), self.integer(y), self.integer(z)]
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::integer::Small;
     use super::*;
     use core::cmp::Ordering;
 
@@ -110,9 +111,9 @@ mod tests {
     fn a_grid_goes_through_its_values() {
         let grid = Grid::through(&[0.75, -6.0, 0.0]);
         assert_eq!((grid.exponent(), grid.bits()), (-2, 5));
-        let [x, y, z] = grid.vector::<2>([0.75, -6.0, -0.0]);
-        assert_eq!(x.cmp(&Int::from_float(3.0, 0)), Ordering::Equal);
-        assert_eq!(y.cmp(&Int::from_float(-24.0, 0)), Ordering::Equal);
+        let [x, y, z] = grid.vector::<Small>([0.75, -6.0, -0.0]);
+        assert_eq!(x.cmp(&Small::from_float(3.0, 0)), Ordering::Equal);
+        assert_eq!(y.cmp(&Small::from_float(-24.0, 0)), Ordering::Equal);
         assert_eq!(z.sign(), Ordering::Equal);
         let none = Grid::through(&[0.0, -0.0]);
         assert_eq!((none.exponent(), none.bits()), (0, 0));

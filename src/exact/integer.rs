@@ -21,23 +21,257 @@
 //! So 8,400 bits are the most: [`LARGE`] limbs hold 8,704. A comparison of numbers that differ by a
 //! power of two shifts nothing unless their lengths agree, and needs no more than they do.
 //!
-//! With ordinary exponents (all coordinates of a case within 2⁻³⁰ and 2³⁰ times a length, say) 3p + d
-//! is below 450 even in `f64`. [`SMALL`] limbs hold 512 bits, and no operation touches a kilobyte.
+//! Ordinary cases need far less: with all coordinates between 2⁻³⁰ and 1 times a length 3p + d is below
+//! 340 in `f64`, 220 in `f32`, so that there are three [`Capacity`]s. The least is [`Wide`]: loops of a
+//! fixed length and no branch on a sign, as both would be mispredicted, cost more than the limbs that they
+//! spare. The others are [`Int`], which counts the limbs in use.
 
 use core::cmp::Ordering;
 
 use super::grid::Parts;
 
-/// The limbs of the integers for ordinary exponents.
-pub(crate) const SMALL: usize = 8;
+/// The integers that hold all numbers of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Capacity {
+    Narrow,
+    Small,
+    Large,
+}
 
-/// The limbs of the integers for any.
-pub(crate) const LARGE: usize = 136;
+/// For [`Capacity::Narrow`].
+pub(crate) type Narrow = Wide<4>;
 
-/// Whether numbers of so many bits fit into [`SMALL`] limbs.
-#[inline]
-pub(crate) fn is_small(bits: u32) -> bool {
-    bits as usize <= 64 * SMALL
+/// For [`Capacity::Small`].
+pub(crate) type Small = Int<8>;
+
+/// For [`Capacity::Large`].
+pub(crate) type Large = Int<LARGE>;
+
+/// The limbs of the integers for any exponents.
+const LARGE: usize = 136;
+
+impl Capacity {
+    /// The least for magnitudes of so many bits.
+    #[inline]
+    pub(crate) fn of(bits: u32) -> Self {
+        match bits {
+            // The sign takes another, and so does the difference of two that are compared.
+            0..=254 => Self::Narrow,
+            255..=512 => Self::Small,
+            _ => Self::Large,
+        }
+    }
+}
+
+/// An integer of some capacity; the caller sees to it that no result exceeds that.
+pub(crate) trait Integer: Clone {
+    const ZERO: Self;
+
+    /// ±`limb`
+    #[must_use]
+    fn from_limb(limb: u64, negative: bool) -> Self;
+    /// How the integer compares with zero.
+    #[must_use]
+    fn sign(&self) -> Ordering;
+    #[must_use]
+    fn is_zero(&self) -> bool;
+    /// The number of bits of the magnitude.
+    #[must_use]
+    fn bits(&self) -> u32;
+    /// The leading 64 bits of the magnitude, which is not zero: the first of them is 1.
+    #[must_use]
+    fn leading(&self) -> u64;
+    #[must_use]
+    fn neg(&self) -> Self;
+    #[must_use]
+    fn abs(&self) -> Self;
+    #[must_use]
+    fn add(&self, other: &Self) -> Self;
+    #[must_use]
+    fn sub(&self, other: &Self) -> Self;
+    #[must_use]
+    fn mul(&self, other: &Self) -> Self;
+    /// The integer times 2^`bits`.
+    #[must_use]
+    fn shl(&self, bits: u32) -> Self;
+    #[must_use]
+    fn cmp(&self, other: &Self) -> Ordering;
+
+    /// `x / 2^exponent`, which is an integer.
+    #[inline]
+    #[must_use]
+    fn from_float(x: f64, exponent: i32) -> Self {
+        let parts = Parts::new(x);
+        let shift = parts.exponent - exponent;
+        if parts.mantissa == 0 {
+            Self::ZERO
+        } else if shift <= 0 {
+            // What is shifted out is zero.
+            debug_assert!(parts.mantissa.trailing_zeros() >= shift.unsigned_abs());
+            Self::from_limb(parts.mantissa >> shift.unsigned_abs(), parts.negative)
+        } else {
+            Self::from_limb(parts.mantissa, parts.negative).shl(shift.unsigned_abs())
+        }
+    }
+
+    /// How `self · 2^shift` compares with the other.
+    #[inline]
+    #[must_use]
+    fn cmp_shifted(&self, shift: i32, other: &Self) -> Ordering {
+        let signs = self.sign().cmp(&other.sign());
+        if signs != Ordering::Equal || self.is_zero() {
+            return signs;
+        }
+        let lengths = (self.bits() as i32 + shift).cmp(&(other.bits() as i32));
+        if lengths != Ordering::Equal {
+            return if self.sign() == Ordering::Less { lengths.reverse() } else { lengths };
+        }
+        if shift >= 0 {
+            self.shl(shift.unsigned_abs()).cmp(other)
+        } else {
+            self.cmp(&other.shl(shift.unsigned_abs()))
+        }
+    }
+
+    /// `self / divisor · 2^exponent`, off by less than an ulp: by less than 0.51 where the result is
+    /// a normal number. A quotient that is a float is exact; one beyond the largest float is infinite.
+    /// The divisor is not zero.
+    #[must_use]
+    fn quotient(&self, divisor: &Self, exponent: i32) -> f64 {
+        if self.is_zero() {
+            return 0.0;
+        }
+        // The leading bits determine dividend and divisor within the factor 1 + 2⁻⁶³, and the
+        // quotient of at least 64 bits, of which 53 remain, within 5 units of the last.
+        let leading = (u128::from(self.leading()) << 64) / u128::from(divisor.leading());
+        let magnitude =
+            scaled(leading as f64, self.bits() as i32 - divisor.bits() as i32 - 64 + exponent);
+        if self.sign() == divisor.sign() { magnitude } else { -magnitude }
+    }
+}
+
+/// An integer of a fixed length: 64 `N` bits in two's complement, the least limb first.
+#[derive(Clone, Debug)]
+pub(crate) struct Wide<const N: usize>([u64; N]);
+
+impl<const N: usize> Wide<N> {
+    /// `self + other`, or `self − other` if told.
+    #[inline(always)]
+    fn sum(&self, other: &Self, subtract: bool) -> Self {
+        let mask = u64::from(subtract).wrapping_neg();
+        let (mut limbs, mut carry) = ([0; N], subtract);
+        for (limb, (&a, &b)) in limbs.iter_mut().zip(self.0.iter().zip(&other.0)) {
+            let (half, over) = a.overflowing_add(b ^ mask);
+            let (whole, over_again) = half.overflowing_add(u64::from(carry));
+            *limb = whole;
+            carry = over | over_again;
+        }
+        Self(limbs)
+    }
+
+    #[inline]
+    fn is_negative(&self) -> bool {
+        self.0[N - 1] >> 63 != 0
+    }
+
+    /// The magnitude, as an integer that counts its limbs.
+    #[inline]
+    fn magnitude(&self) -> Int<N> {
+        let limbs = self.abs().0;
+        let len = limbs.iter().rposition(|&limb| limb != 0).map_or(0, |last| last + 1);
+        Int { limbs, len, negative: false }
+    }
+}
+
+impl<const N: usize> Integer for Wide<N> {
+    const ZERO: Self = Self([0; N]);
+
+    #[inline]
+    fn from_limb(limb: u64, negative: bool) -> Self {
+        let mut limbs = [0; N];
+        limbs[0] = limb;
+        Self::ZERO.sum(&Self(limbs), negative)
+    }
+
+    #[inline]
+    fn sign(&self) -> Ordering {
+        match (self.is_zero(), self.is_negative()) {
+            (true, _) => Ordering::Equal,
+            (_, true) => Ordering::Less,
+            (_, false) => Ordering::Greater,
+        }
+    }
+
+    #[inline]
+    fn is_zero(&self) -> bool {
+        self.0.iter().fold(0, |all, limb| all | limb) == 0
+    }
+
+    #[inline]
+    fn bits(&self) -> u32 {
+        self.magnitude().bits()
+    }
+
+    #[inline]
+    fn leading(&self) -> u64 {
+        self.magnitude().leading()
+    }
+
+    #[inline]
+    fn neg(&self) -> Self {
+        Self::ZERO.sum(self, true)
+    }
+
+    #[inline]
+    fn abs(&self) -> Self {
+        Self::ZERO.sum(self, self.is_negative())
+    }
+
+    #[inline(always)]
+    fn add(&self, other: &Self) -> Self {
+        self.sum(other, false)
+    }
+
+    #[inline(always)]
+    fn sub(&self, other: &Self) -> Self {
+        self.sum(other, true)
+    }
+
+    #[allow(clippy::cast_possible_truncation)] // a product taken apart into two limbs
+    #[inline(always)]
+    fn mul(&self, other: &Self) -> Self {
+        // Modulo 2^(64 N), signs take care of themselves.
+        let mut limbs = [0; N];
+        for i in 0..N {
+            let mut carry = 0;
+            for j in 0..N - i {
+                let product = u128::from(self.0[i]) * u128::from(other.0[j])
+                    + u128::from(limbs[i + j])
+                    + carry;
+                limbs[i + j] = product as u64;
+                carry = product >> 64;
+            }
+        }
+        Self(limbs)
+    }
+
+    #[inline]
+    fn shl(&self, bits: u32) -> Self {
+        let (whole, bits) = ((bits / 64) as usize, bits % 64);
+        let mut limbs = [0; N];
+        let mut carry = 0;
+        for (limb, &x) in limbs.iter_mut().skip(whole).zip(&self.0) {
+            *limb = x << bits | carry;
+            // In two steps, since bits may be zero.
+            carry = x >> 1 >> (63 - bits);
+        }
+        Self(limbs)
+    }
+
+    #[inline]
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.sum(other, true).sign()
+    }
 }
 
 /// An integer: sign and magnitude, the magnitude in `L` limbs of 64 bits, the least first.
@@ -54,77 +288,6 @@ pub(crate) struct Int<const L: usize> {
 }
 
 impl<const L: usize> Int<L> {
-    pub(crate) const ZERO: Self = Self { limbs: [0; L], len: 0, negative: false };
-
-    /// ±`limb`
-    #[inline]
-    pub(crate) fn from_limb(limb: u64, negative: bool) -> Self {
-        let mut limbs = [0; L];
-        limbs[0] = limb;
-        Self { limbs, len: usize::from(limb != 0), negative }
-    }
-
-    /// `x / 2^exponent`, which is an integer.
-    #[inline]
-    pub(crate) fn from_float(x: f64, exponent: i32) -> Self {
-        let parts = Parts::new(x);
-        let shift = parts.exponent - exponent;
-        if parts.mantissa == 0 {
-            Self::ZERO
-        } else if shift <= 0 {
-            // What is shifted out is zero.
-            debug_assert!(parts.mantissa.trailing_zeros() >= shift.unsigned_abs());
-            Self::from_limb(parts.mantissa >> shift.unsigned_abs(), parts.negative)
-        } else {
-            Self::from_limb(parts.mantissa, parts.negative).shl(shift.unsigned_abs())
-        }
-    }
-
-    /// How the integer compares with zero.
-    #[inline]
-    pub(crate) fn sign(&self) -> Ordering {
-        match (self.len, self.negative) {
-            (0, _) => Ordering::Equal,
-            (_, true) => Ordering::Less,
-            (_, false) => Ordering::Greater,
-        }
-    }
-
-    #[inline]
-    pub(crate) fn is_zero(&self) -> bool {
-        self.len == 0
-    }
-
-    /// The number of bits of the magnitude.
-    #[allow(clippy::cast_possible_truncation)] // some thousands
-    #[inline]
-    pub(crate) fn bits(&self) -> u32 {
-        match self.len {
-            0 => 0,
-            len => 64 * len as u32 - self.limbs[len - 1].leading_zeros(),
-        }
-    }
-
-    #[inline]
-    pub(crate) fn neg(&self) -> Self {
-        Self { negative: !self.negative, ..self.clone() }
-    }
-
-    #[inline]
-    pub(crate) fn abs(&self) -> Self {
-        Self { negative: false, ..self.clone() }
-    }
-
-    #[inline]
-    pub(crate) fn add(&self, other: &Self) -> Self {
-        self.sum(other, other.negative)
-    }
-
-    #[inline]
-    pub(crate) fn sub(&self, other: &Self) -> Self {
-        self.sum(other, !other.negative)
-    }
-
     /// The sum, with the sign of the other as told.
     #[inline]
     fn sum(&self, other: &Self, other_negative: bool) -> Self {
@@ -165,10 +328,64 @@ impl<const L: usize> Int<L> {
         }
         Self { limbs, len, negative }
     }
+}
+
+impl<const L: usize> Integer for Int<L> {
+    const ZERO: Self = Self { limbs: [0; L], len: 0, negative: false };
+
+    #[inline]
+    fn from_limb(limb: u64, negative: bool) -> Self {
+        let mut limbs = [0; L];
+        limbs[0] = limb;
+        Self { limbs, len: usize::from(limb != 0), negative }
+    }
+
+    #[inline]
+    fn sign(&self) -> Ordering {
+        match (self.len, self.negative) {
+            (0, _) => Ordering::Equal,
+            (_, true) => Ordering::Less,
+            (_, false) => Ordering::Greater,
+        }
+    }
+
+    #[inline]
+    fn is_zero(&self) -> bool {
+        self.len == 0
+    }
+
+    #[allow(clippy::cast_possible_truncation)] // some thousands
+    #[inline]
+    fn bits(&self) -> u32 {
+        match self.len {
+            0 => 0,
+            len => 64 * len as u32 - self.limbs[len - 1].leading_zeros(),
+        }
+    }
+
+    #[inline]
+    fn neg(&self) -> Self {
+        Self { negative: !self.negative, ..self.clone() }
+    }
+
+    #[inline]
+    fn abs(&self) -> Self {
+        Self { negative: false, ..self.clone() }
+    }
+
+    #[inline]
+    fn add(&self, other: &Self) -> Self {
+        self.sum(other, other.negative)
+    }
+
+    #[inline]
+    fn sub(&self, other: &Self) -> Self {
+        self.sum(other, !other.negative)
+    }
 
     #[allow(clippy::cast_possible_truncation)] // a product taken apart into two limbs
     #[inline]
-    pub(crate) fn mul(&self, other: &Self) -> Self {
+    fn mul(&self, other: &Self) -> Self {
         let mut limbs = [0; L];
         let (a, b) = (&self.limbs[..self.len], &other.limbs[..other.len]);
         for (i, &x) in a.iter().enumerate() {
@@ -191,9 +408,8 @@ impl<const L: usize> Int<L> {
         Self { limbs, len, negative: self.negative != other.negative }
     }
 
-    /// The integer times 2^`bits`.
     #[inline]
-    pub(crate) fn shl(&self, bits: u32) -> Self {
+    fn shl(&self, bits: u32) -> Self {
         if self.len == 0 {
             return Self::ZERO;
         }
@@ -216,7 +432,7 @@ impl<const L: usize> Int<L> {
     }
 
     #[inline]
-    pub(crate) fn cmp(&self, other: &Self) -> Ordering {
+    fn cmp(&self, other: &Self) -> Ordering {
         let signs = self.sign().cmp(&other.sign());
         if signs != Ordering::Equal {
             return signs;
@@ -228,46 +444,12 @@ impl<const L: usize> Int<L> {
         if self.negative { magnitudes.reverse() } else { magnitudes }
     }
 
-    /// How `self · 2^shift` compares with the other.
-    #[inline]
-    pub(crate) fn cmp_shifted(&self, shift: i32, other: &Self) -> Ordering {
-        let signs = self.sign().cmp(&other.sign());
-        if signs != Ordering::Equal || self.len == 0 {
-            return signs;
-        }
-        let lengths = (self.bits() as i32 + shift).cmp(&(other.bits() as i32));
-        if lengths != Ordering::Equal {
-            return if self.negative { lengths.reverse() } else { lengths };
-        }
-        if shift >= 0 {
-            self.shl(shift.unsigned_abs()).cmp(other)
-        } else {
-            self.cmp(&other.shl(shift.unsigned_abs()))
-        }
-    }
-
-    /// The leading 64 bits of the magnitude, which is not zero: the first of them is 1.
     #[inline]
     fn leading(&self) -> u64 {
         let last = self.len - 1;
         let zeros = self.limbs[last].leading_zeros();
         let below = if last > 0 { self.limbs[last - 1] } else { 0 };
         self.limbs[last] << zeros | below >> 1 >> (63 - zeros)
-    }
-
-    /// `self / divisor · 2^exponent`, off by less than an ulp: by less than 0.51 where the result is
-    /// a normal number. A quotient that is a float is exact; one beyond the largest float is infinite.
-    /// The divisor is not zero.
-    pub(crate) fn quotient(&self, divisor: &Self, exponent: i32) -> f64 {
-        if self.len == 0 {
-            return 0.0;
-        }
-        // The leading bits determine dividend and divisor within the factor 1 + 2⁻⁶³, and the
-        // quotient of at least 64 bits, of which 53 remain, within 5 units of the last.
-        let leading = (u128::from(self.leading()) << 64) / u128::from(divisor.leading());
-        let magnitude =
-            scaled(leading as f64, self.bits() as i32 - divisor.bits() as i32 - 64 + exponent);
-        if self.negative == divisor.negative { magnitude } else { -magnitude }
     }
 }
 
@@ -281,36 +463,32 @@ fn scaled(x: f64, exponent: i32) -> f64 {
 
 /// `a − b`
 #[inline]
-pub(crate) fn sub<const L: usize>(a: &[Int<L>; 3], b: &[Int<L>; 3]) -> [Int<L>; 3] {
+pub(crate) fn sub<I: Integer>(a: &[I; 3], b: &[I; 3]) -> [I; 3] {
     [a[0].sub(&b[0]), a[1].sub(&b[1]), a[2].sub(&b[2])]
 }
 
 /// `a · b`
 #[inline]
-pub(crate) fn dot<const L: usize>(a: &[Int<L>; 3], b: &[Int<L>; 3]) -> Int<L> {
+pub(crate) fn dot<I: Integer>(a: &[I; 3], b: &[I; 3]) -> I {
     a[0].mul(&b[0]).add(&a[1].mul(&b[1])).add(&a[2].mul(&b[2]))
 }
 
 /// The component `axis` of `a × b`.
 #[inline]
-pub(crate) fn cross_component<const L: usize>(
-    a: &[Int<L>; 3],
-    b: &[Int<L>; 3],
-    axis: usize,
-) -> Int<L> {
+pub(crate) fn cross_component<I: Integer>(a: &[I; 3], b: &[I; 3], axis: usize) -> I {
     let (y, z) = ((axis + 1) % 3, (axis + 2) % 3);
     a[y].mul(&b[z]).sub(&a[z].mul(&b[y]))
 }
 
 /// `a × b`
 #[inline]
-pub(crate) fn cross<const L: usize>(a: &[Int<L>; 3], b: &[Int<L>; 3]) -> [Int<L>; 3] {
+pub(crate) fn cross<I: Integer>(a: &[I; 3], b: &[I; 3]) -> [I; 3] {
     [cross_component(a, b, 0), cross_component(a, b, 1), cross_component(a, b, 2)]
 }
 
 /// The first component that is not zero.
 #[inline]
-pub(crate) fn first_nonzero<const L: usize>(a: &[Int<L>; 3]) -> Option<usize> {
+pub(crate) fn first_nonzero<I: Integer>(a: &[I; 3]) -> Option<usize> {
     a.iter().position(|component| !component.is_zero())
 }
 
@@ -369,8 +547,43 @@ mod tests {
             }
         }
         check::<4>(200_000);
-        check::<SMALL>(100_000);
+        check::<8>(100_000);
         check::<LARGE>(2_000);
+    }
+
+    #[test]
+    fn integers_of_a_fixed_length_agree_with_those_that_count() {
+        /// In two's complement; the value must leave a bit for the sign.
+        fn wide(x: &Int<4>) -> Wide<4> {
+            let magnitude = Wide(x.limbs);
+            if x.negative { magnitude.neg() } else { magnitude }
+        }
+        let mut rng = fastrand::Rng::with_seed(22);
+        for _ in 0..200_000 {
+            let (a, b) = (random::<4>(&mut rng, 2), random::<4>(&mut rng, 1));
+            let (x, y) = (wide(&a), wide(&b));
+            assert_eq!(x.add(&y).0, wide(&a.add(&b)).0);
+            assert_eq!(x.sub(&y).0, wide(&a.sub(&b)).0);
+            assert_eq!(x.mul(&y).0, wide(&a.mul(&b)).0);
+            assert_eq!((x.neg().0, x.abs().0), (wide(&a.neg()).0, wide(&a.abs()).0));
+            assert_eq!((x.sign(), x.is_zero(), x.bits()), (a.sign(), a.is_zero(), a.bits()));
+            assert_eq!((x.cmp(&y), y.cmp(&x)), (a.cmp(&b), b.cmp(&a)));
+            let shift = rng.u32(0..=120);
+            assert_eq!(x.shl(shift).0, wide(&a.shl(shift)).0);
+            let (c, z) = (b.shl(shift), y.shl(shift));
+            assert_eq!(x.cmp_shifted(shift as i32, &z), a.cmp_shifted(shift as i32, &c));
+            assert_eq!(z.cmp_shifted(-(shift as i32), &x), c.cmp_shifted(-(shift as i32), &a));
+            if !b.is_zero() {
+                assert_eq!(x.quotient(&y, 3), a.quotient(&b, 3));
+            }
+        }
+    }
+
+    #[test]
+    fn the_least_capacity_that_does() {
+        let capacities = [254, 255, 512, 513, 8_400].map(Capacity::of);
+        use Capacity::{Large, Narrow, Small};
+        assert_eq!(capacities, [Narrow, Small, Small, Large, Large]);
     }
 
     /// A product of as many limbs as there are, of which the last may not come to use.

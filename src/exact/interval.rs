@@ -3,20 +3,20 @@
 use core::cmp::Ordering;
 
 use super::grid::Parts;
-use super::integer::Int;
+use super::integer::Integer;
 
 /// A value of t: a float, which may be infinite but not NaN, or `num / den` in the unit of the case,
 /// `den` positive.
 #[derive(Clone, Debug)]
-pub(crate) enum Parameter<const L: usize> {
+pub(crate) enum Parameter<I: Integer> {
     Float(f64),
-    Fraction { num: Int<L>, den: Int<L> },
+    Fraction { num: I, den: I },
 }
 
-impl<const L: usize> Parameter<L> {
+impl<I: Integer> Parameter<I> {
     /// `num / den`; the denominator may have any sign, but is not zero.
     #[inline]
-    pub(crate) fn fraction(num: Int<L>, den: Int<L>) -> Self {
+    pub(crate) fn fraction(num: I, den: I) -> Self {
         if den.sign() == Ordering::Less {
             Self::Fraction { num: num.neg(), den: den.neg() }
         } else {
@@ -37,7 +37,7 @@ impl<const L: usize> Parameter<L> {
         }
     }
 
-    /// The nearest float or a neighbour of it: see [`Int::quotient`].
+    /// The nearest float or a neighbour of it: see [`I::quotient`].
     pub(crate) fn to_float(&self, unit: i32) -> f64 {
         match self {
             Self::Float(t) => *t,
@@ -48,26 +48,26 @@ impl<const L: usize> Parameter<L> {
 
 /// How t compares with `num / den · 2^unit`, `den` positive.
 #[inline]
-fn compare<const L: usize>(t: f64, num: &Int<L>, den: &Int<L>, unit: i32) -> Ordering {
+fn compare<I: Integer>(t: f64, num: &I, den: &I, unit: i32) -> Ordering {
     if t.is_infinite() {
         return if t > 0.0 { Ordering::Greater } else { Ordering::Less };
     }
     let Parts { negative, mantissa, exponent } = Parts::new(t);
-    Int::from_limb(mantissa, negative).mul(den).cmp_shifted(exponent - unit, num)
+    I::from_limb(mantissa, negative).mul(den).cmp_shifted(exponent - unit, num)
 }
 
 /// A closed interval of t.
 #[derive(Clone, Debug)]
-pub(crate) struct Interval<const L: usize> {
-    pub(crate) enter: Parameter<L>,
-    pub(crate) exit: Parameter<L>,
+pub(crate) struct Interval<I: Integer> {
+    pub(crate) enter: Parameter<I>,
+    pub(crate) exit: Parameter<I>,
     /// Fractions are in units of two to this power.
     unit: i32,
     /// Empty, whatever the ends.
     void: bool,
 }
 
-impl<const L: usize> Interval<L> {
+impl<I: Integer> Interval<I> {
     #[inline]
     pub(crate) fn new(t_min: f64, t_max: f64, unit: i32) -> Self {
         let (enter, exit) = (Parameter::Float(t_min), Parameter::Float(t_max));
@@ -80,7 +80,7 @@ impl<const L: usize> Interval<L> {
     }
 
     #[inline]
-    pub(crate) fn contains(&self, t: &Parameter<L>) -> bool {
+    pub(crate) fn contains(&self, t: &Parameter<I>) -> bool {
         !self.void
             && self.enter.cmp(t, self.unit) != Ordering::Greater
             && t.cmp(&self.exit, self.unit) != Ordering::Greater
@@ -88,7 +88,7 @@ impl<const L: usize> Interval<L> {
 
     /// Keeps the t with `at_zero + t · slope ≥ 0`.
     #[inline]
-    pub(crate) fn clip(&mut self, at_zero: &Int<L>, slope: &Int<L>) {
+    pub(crate) fn clip(&mut self, at_zero: &I, slope: &I) {
         match slope.sign() {
             Ordering::Greater => {
                 let root = Parameter::fraction(at_zero.neg(), slope.clone());
@@ -109,10 +109,11 @@ impl<const L: usize> Interval<L> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::integer::Narrow;
     use super::*;
 
-    fn int(x: f64) -> Int<4> {
-        Int::from_float(x, 0)
+    fn int(x: f64) -> Narrow {
+        Narrow::from_float(x, 0)
     }
 
     #[test]
@@ -125,8 +126,8 @@ mod tests {
                     // In units of 1/4.
                     let parts = Parts::new(x).reduced();
                     let (up, down) = (parts.exponent + 2, -parts.exponent - 2);
-                    Parameter::<4>::fraction(
-                        Int::from_limb(parts.mantissa, !parts.negative)
+                    Parameter::<Narrow>::fraction(
+                        Narrow::from_limb(parts.mantissa, !parts.negative)
                             .shl(up.max(0).unsigned_abs()),
                         int(-1.0).shl(down.max(0).unsigned_abs()),
                     )
@@ -147,7 +148,7 @@ mod tests {
 
     #[test]
     fn clipping_keeps_a_closed_interval() {
-        let whole = Interval::<4>::new(f64::NEG_INFINITY, f64::INFINITY, 0);
+        let whole = Interval::<Narrow>::new(f64::NEG_INFINITY, f64::INFINITY, 0);
         let mut point = whole.clone();
         point.clip(&int(-6.0), &int(4.0));
         point.clip(&int(6.0), &int(-4.0));

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::sat::{Part, edge_margins, edges, plane_margin};
 use crate::exact::grid::Grid;
-use crate::exact::integer::{Int, LARGE, SMALL, cross, is_small, sub};
+use crate::exact::integer::{Capacity, Integer, Large, Narrow, Small, cross, sub};
 use crate::exact::wide;
 use crate::shape::{Aabb, Triangle};
 use crate::vector::{Number, Scalar, Vector};
@@ -121,28 +121,28 @@ fn decide(vertices: [[f64; 3]; 3], [min, max]: [[f64; 3]; 2]) -> bool {
         .joined(Grid::through(&min))
         .joined(Grid::through(&max));
     // The normal times a difference, and three of these.
-    if is_small(3 * grid.bits() + 6) {
-        crossing_axes_overlap::<SMALL>(grid, vertices, min, max)
-    } else {
-        crossing_axes_overlap::<LARGE>(grid, vertices, min, max)
+    match Capacity::of(3 * grid.bits() + 6) {
+        Capacity::Narrow => crossing_axes_overlap::<Narrow>(grid, vertices, min, max),
+        Capacity::Small => crossing_axes_overlap::<Small>(grid, vertices, min, max),
+        Capacity::Large => crossing_axes_overlap::<Large>(grid, vertices, min, max),
     }
 }
 
-fn crossing_axes_overlap<const L: usize>(
+fn crossing_axes_overlap<I: Integer>(
     grid: Grid,
     vertices: [[f64; 3]; 3],
     min: [f64; 3],
     max: [f64; 3],
 ) -> bool {
-    let v = vertices.map(|v| grid.vector::<L>(v));
-    let (min, max) = (grid.vector::<L>(min), grid.vector::<L>(max));
+    let v = vertices.map(|v| grid.vector::<I>(v));
+    let (min, max) = (grid.vector::<I>(min), grid.vector::<I>(max));
     let edges = [sub(&v[1], &v[0]), sub(&v[2], &v[1]), sub(&v[0], &v[2])];
     let normal = cross(&edges[0], &edges[1]);
     let boxes = v.each_ref().map(|v| [sub(&min, v), sub(&max, v)]);
 
     // The products of n with a corner, least and greatest.
     let [x, y, z] = [0, 1, 2].map(|k| products(&normal[k], &boxes[0], k));
-    let zero = Int::ZERO;
+    let zero = I::ZERO;
     if !overlap(&[x[0].add(&y[0]).add(&z[0]), x[1].add(&y[1]).add(&z[1])], &zero, &zero) {
         return false;
     }
@@ -163,17 +163,13 @@ fn crossing_axes_overlap<const L: usize>(
 
 /// A factor times a component of the box's corners: the least and the greatest product.
 #[inline]
-fn products<const L: usize>(
-    factor: &Int<L>,
-    [min, max]: &[[Int<L>; 3]; 2],
-    k: usize,
-) -> [Int<L>; 2] {
+fn products<I: Integer>(factor: &I, [min, max]: &[[I; 3]; 2], k: usize) -> [I; 2] {
     let (at_min, at_max) = (factor.mul(&min[k]), factor.mul(&max[k]));
     if factor.sign() == Ordering::Less { [at_max, at_min] } else { [at_min, at_max] }
 }
 
 /// Whether two closed intervals overlap.
 #[inline]
-fn overlap<const L: usize>([first, last]: &[Int<L>; 2], low: &Int<L>, high: &Int<L>) -> bool {
+fn overlap<I: Integer>([first, last]: &[I; 2], low: &I, high: &I) -> bool {
     first.cmp(high) != Ordering::Greater && low.cmp(last) != Ordering::Greater
 }

@@ -5,7 +5,7 @@
 
 use super::{AabbHit, BoxRay, slab};
 use crate::exact::grid::Grid;
-use crate::exact::integer::{LARGE, SMALL, is_small};
+use crate::exact::integer::{Capacity, Integer, Large, Narrow, Small};
 use crate::exact::interval::Interval;
 use crate::exact::wide;
 use crate::shape::Aabb;
@@ -135,25 +135,25 @@ impl Problem {
         let directions = Grid::through(&self.direction);
         let (p, d) = (points.bits(), directions.bits());
         // A difference times a direction; a direction times a float.
-        if is_small((p + 1 + d).max(d + 53)) {
-            self.intervals_overlap::<SMALL>(points, directions)
-        } else {
-            self.intervals_overlap::<LARGE>(points, directions)
+        match Capacity::of((p + 1 + d).max(d + 53)) {
+            Capacity::Narrow => self.intervals_overlap::<Narrow>(points, directions),
+            Capacity::Small => self.intervals_overlap::<Small>(points, directions),
+            Capacity::Large => self.intervals_overlap::<Large>(points, directions),
         }
     }
 
-    fn intervals_overlap<const L: usize>(&self, points: Grid, directions: Grid) -> bool {
+    fn intervals_overlap<I: Integer>(&self, points: Grid, directions: Grid) -> bool {
         let unit = points.exponent() - directions.exponent();
-        let mut range = Interval::<L>::new(self.t_min, self.t_max, unit);
+        let mut range = Interval::<I>::new(self.t_min, self.t_max, unit);
         for axis in 0..3 {
-            let origin = points.integer::<L>(self.origin[axis]);
-            let direction = directions.integer::<L>(self.direction[axis]);
+            let origin = points.integer::<I>(self.origin[axis]);
+            let direction = directions.integer::<I>(self.direction[axis]);
             // o + t·d − min ≥ 0 and max − o − t·d ≥ 0
             if self.min[axis].is_finite() {
                 range.clip(&origin.sub(&points.integer(self.min[axis])), &direction);
             }
             if self.max[axis].is_finite() {
-                range.clip(&points.integer(self.max[axis]).sub(&origin), &direction.neg());
+                range.clip(&points.integer::<I>(self.max[axis]).sub(&origin), &direction.neg());
             }
         }
         !range.is_empty()

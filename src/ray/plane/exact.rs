@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use super::PlaneHit;
 use crate::exact::grid::Grid;
-use crate::exact::integer::{LARGE, SMALL, dot, is_small};
+use crate::exact::integer::{Capacity, Integer, Large, Narrow, Small, dot};
 use crate::exact::interval::{Interval, Parameter};
 use crate::shape::{Plane, Ray};
 use crate::vector::Vector;
@@ -72,15 +72,19 @@ impl Problem {
         let grids = Grids { points, directions, normals, heights };
         // Three products and the offset; three products times a float.
         let bits = (heights.bits() + 3).max(normals.bits() + directions.bits() + 2 + 53);
-        if is_small(bits) { self.decide::<SMALL>(grids) } else { self.decide::<LARGE>(grids) }
+        match Capacity::of(bits) {
+            Capacity::Narrow => self.decide::<Narrow>(grids),
+            Capacity::Small => self.decide::<Small>(grids),
+            Capacity::Large => self.decide::<Large>(grids),
+        }
     }
 
-    fn decide<const L: usize>(&self, grids: Grids) -> Option<PlaneHit<()>> {
+    fn decide<I: Integer>(&self, grids: Grids) -> Option<PlaneHit<()>> {
         let Grids { points, directions, normals, heights } = grids;
-        let normal = normals.vector::<L>(self.normal);
+        let normal = normals.vector::<I>(self.normal);
         let height = dot(&normal, &points.vector(self.origin));
         let finer = normals.exponent() + points.exponent() - heights.exponent();
-        let height = heights.integer(self.offset).sub(&height.shl(finer.unsigned_abs()));
+        let height = heights.integer::<I>(self.offset).sub(&height.shl(finer.unsigned_abs()));
         let slope = dot(&normal, &directions.vector(self.direction));
         if slope.sign() == Ordering::Equal {
             return height.is_zero().then_some(PlaneHit::Contained);

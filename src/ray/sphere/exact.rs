@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 
 use crate::exact::grid::{Grid, Parts};
-use crate::exact::integer::{Int, LARGE, SMALL, dot, is_small, sub};
+use crate::exact::integer::{Capacity, Integer, Large, Narrow, Small, dot, sub};
 use crate::shape::{Ray, Sphere};
 use crate::vector::Vector;
 
@@ -83,10 +83,10 @@ impl Problem {
     #[cold]
     fn classify(&self, t_min: f64, t_max: f64) -> Option<[Ordering; 2]> {
         let (p, d) = (self.points.bits(), self.directions.bits());
-        let is_hit = if is_small(2 * p + 2 * d + 8) {
-            self.line_hits::<SMALL>()
-        } else {
-            self.line_hits::<LARGE>()
+        let is_hit = match Capacity::of(2 * p + 2 * d + 8) {
+            Capacity::Narrow => self.line_hits::<Narrow>(),
+            Capacity::Small => self.line_hits::<Small>(),
+            Capacity::Large => self.line_hits::<Large>(),
         };
         if !is_hit {
             return None;
@@ -100,14 +100,14 @@ impl Problem {
     }
 
     /// From the origin to the centre.
-    fn offset<const L: usize>(&self) -> [Int<L>; 3] {
+    fn offset<I: Integer>(&self) -> [I; 3] {
         sub(&self.points.vector(self.center), &self.points.vector(self.origin))
     }
 
     /// Whether the discriminant is not negative.
-    fn line_hits<const L: usize>(&self) -> bool {
-        let (f, d) = (self.offset::<L>(), self.directions.vector::<L>(self.direction));
-        let radius = self.points.integer::<L>(self.radius);
+    fn line_hits<I: Integer>(&self) -> bool {
+        let (f, d) = (self.offset::<I>(), self.directions.vector::<I>(self.direction));
+        let radius = self.points.integer::<I>(self.radius);
         let (a, b) = (dot(&d, &d), dot(&f, &d));
         let c = dot(&f, &f).sub(&radius.mul(&radius));
         b.mul(&b).cmp(&a.mul(&c)) != Ordering::Less
@@ -121,10 +121,10 @@ impl Problem {
         let grid = Grid::through(&[t]).product(self.directions).joined(self.points);
         let (w, d) = (grid.bits() + 2, self.directions.bits());
         // A square, three of these and the radius'; the product with the direction.
-        let (side, slope) = if is_small((2 * w + 3).max(w + d + 2)) {
-            self.side::<SMALL>(t, grid)
-        } else {
-            self.side::<LARGE>(t, grid)
+        let (side, slope) = match Capacity::of((2 * w + 3).max(w + d + 2)) {
+            Capacity::Narrow => self.side::<Narrow>(t, grid),
+            Capacity::Small => self.side::<Small>(t, grid),
+            Capacity::Large => self.side::<Large>(t, grid),
         };
         match side {
             Ordering::Less => [Ordering::Less, Ordering::Greater],
@@ -138,17 +138,17 @@ impl Problem {
     }
 
     /// The signs of g and of its derivative at t, on a grid that holds t·d and the points.
-    fn side<const L: usize>(&self, t: f64, grid: Grid) -> (Ordering, Ordering) {
+    fn side<I: Integer>(&self, t: f64, grid: Grid) -> (Ordering, Ordering) {
         let Parts { negative, mantissa, exponent } = Parts::new(t).reduced();
-        let t = Int::from_limb(mantissa, negative);
-        let d = self.directions.vector::<L>(self.direction);
+        let t: I = Integer::from_limb(mantissa, negative);
+        let d = self.directions.vector::<I>(self.direction);
         // Each is zero, or on a grid that is no finer.
         let to_grid = |exponent: i32| (exponent - grid.exponent()).unsigned_abs();
         let way = to_grid(exponent + self.directions.exponent());
         let point = to_grid(self.points.exponent());
-        let way = d.each_ref().map(|d| if t.is_zero() { Int::ZERO } else { d.mul(&t).shl(way) });
-        let w = sub(&way, &self.offset().map(|f| f.shl(point)));
-        let radius = self.points.integer::<L>(self.radius).shl(point);
+        let way = d.each_ref().map(|d| if t.is_zero() { I::ZERO } else { d.mul(&t).shl(way) });
+        let w = sub(&way, &self.offset::<I>().map(|f| f.shl(point)));
+        let radius = self.points.integer::<I>(self.radius).shl(point);
         (dot(&w, &w).cmp(&radius.mul(&radius)), dot(&w, &d).sign())
     }
 }

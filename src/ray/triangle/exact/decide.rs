@@ -5,7 +5,7 @@ use core::cmp::Ordering;
 use super::Verdict;
 use crate::exact::grid::{Grid, Parts};
 use crate::exact::integer::{
-    Int, LARGE, SMALL, cross, cross_component, dot, first_nonzero, is_small, sub,
+    Capacity, Integer, Large, Narrow, Small, cross, cross_component, dot, first_nonzero, sub,
 };
 use crate::exact::interval::{Interval, Parameter};
 use crate::exact::wide;
@@ -46,25 +46,25 @@ impl Problem {
 
     #[inline]
     pub(super) fn classify(&self) -> Verdict {
-        if is_small(self.bits()) {
-            Case::<SMALL>::new(self).classify()
-        } else {
-            self.classify_large()
+        match Capacity::of(self.bits()) {
+            Capacity::Narrow => Case::<Narrow>::new(self).classify(),
+            Capacity::Small => Case::<Small>::new(self).classify(),
+            Capacity::Large => self.classify_large(),
         }
     }
 
     #[cold]
     #[inline(never)]
     fn classify_large(&self) -> Verdict {
-        Case::<LARGE>::new(self).classify()
+        Case::<Large>::new(self).classify()
     }
 
     /// Whether, and which way, the moved ray crosses the triangle.
     pub(super) fn crosses(&self) -> Option<bool> {
-        if is_small(self.bits()) {
-            Case::<SMALL>::new(self).crosses()
-        } else {
-            Case::<LARGE>::new(self).crosses()
+        match Capacity::of(self.bits()) {
+            Capacity::Narrow => Case::<Narrow>::new(self).crosses(),
+            Capacity::Small => Case::<Small>::new(self).crosses(),
+            Capacity::Large => Case::<Large>::new(self).crosses(),
         }
     }
 
@@ -75,10 +75,10 @@ impl Problem {
         let shift = t.exponent - self.unit();
         let (p, d) = (self.points.bits(), self.directions.bits());
         let weights = (2 * p + shift.min(0).unsigned_abs()).max(p + d + 53 + shift.max(0) as u32);
-        if is_small(self.bits().max(weights + 4)) {
-            Case::<SMALL>::new(self).locate()
-        } else {
-            Case::<LARGE>::new(self).locate()
+        match Capacity::of(self.bits().max(weights + 6)) {
+            Capacity::Narrow => Case::<Narrow>::new(self).locate(),
+            Capacity::Small => Case::<Small>::new(self).locate(),
+            Capacity::Large => Case::<Large>::new(self).locate(),
         }
     }
 
@@ -100,57 +100,57 @@ pub(super) struct Location {
 }
 
 /// The problem in integers: points as seen from the origin on one grid, the direction on another.
-struct Case<'a, const L: usize> {
+struct Case<'a, I: Integer> {
     problem: &'a Problem,
-    direction: [Int<L>; 3],
+    direction: [I; 3],
     /// The vertices.
-    a: [[Int<L>; 3]; 3],
+    a: [[I; 3]; 3],
     /// v1 − v0
-    edge1: [Int<L>; 3],
+    edge1: [I; 3],
     /// v2 − v0
-    edge2: [Int<L>; 3],
+    edge2: [I; 3],
 }
 
 /// Where the line goes through the triangle's plane.
-struct Volumes<const L: usize> {
-    normal: [Int<L>; 3],
+struct Volumes<I: Integer> {
+    normal: [I; 3],
     /// s_i, by the vertex across from the edge.
-    s: [Int<L>; 3],
+    s: [I; 3],
     /// Σ s = d·n
-    sum: Int<L>,
+    sum: I,
 }
 
 /// How a ray and a triangle touch.
-enum Touch<const L: usize> {
+enum Touch<I: Integer> {
     /// In one point, off the ray's direction.
-    Crossing { volumes: Volumes<L>, t: Parameter<L> },
+    Crossing { volumes: Volumes<I>, t: Parameter<I> },
     /// In the triangle's plane, first at t.
-    InPlane { normal: [Int<L>; 3], t: Parameter<L> },
+    InPlane { normal: [I; 3], t: Parameter<I> },
     /// The triangle is a segment or a point, touched at t.
-    Degenerate { place: Place<L>, t: Parameter<L> },
+    Degenerate { place: Place<I>, t: Parameter<I> },
     /// The same, with all vertices on the ray's line, touched first at t.
-    Along { is_point: bool, t: Parameter<L> },
+    Along { is_point: bool, t: Parameter<I> },
 }
 
-impl<'a, const L: usize> Case<'a, L> {
+impl<'a, I: Integer> Case<'a, I> {
     #[inline]
     fn new(problem: &'a Problem) -> Self {
         let Problem { points, directions, .. } = problem;
         let origin = points.vector(problem.origin);
-        let [v0, v1, v2] = problem.vertices.map(|v| points.vector::<L>(v));
+        let [v0, v1, v2] = problem.vertices.map(|v| points.vector::<I>(v));
         let a = [sub(&v0, &origin), sub(&v1, &origin), sub(&v2, &origin)];
         let (edge1, edge2) = (sub(&v1, &v0), sub(&v2, &v0));
         Self { problem, direction: directions.vector(problem.direction), a, edge1, edge2 }
     }
 
     #[inline]
-    fn range(&self) -> Interval<L> {
+    fn range(&self) -> Interval<I> {
         Interval::new(self.problem.t_min, self.problem.t_max, self.problem.unit())
     }
 
     /// `None` where the line passes the triangle by.
     #[inline]
-    fn volumes(&self) -> Option<Volumes<L>> {
+    fn volumes(&self) -> Option<Volumes<I>> {
         let moment = cross(&self.a[0], &self.direction);
         let s1 = dot(&self.edge2, &moment);
         let s2 = dot(&self.edge1, &moment).neg();
@@ -160,7 +160,7 @@ impl<'a, const L: usize> Case<'a, L> {
         let normal = cross(&self.edge1, &self.edge2);
         let sum = dot(&normal, &self.direction);
         let s0 = sum.sub(&s1).sub(&s2);
-        let opposite = |s: &Int<L>| !s.is_zero() && s.sign() == s0.sign().reverse();
+        let opposite = |s: &I| !s.is_zero() && s.sign() == s0.sign().reverse();
         if opposite(&s1) || opposite(&s2) {
             return None;
         }
@@ -169,12 +169,12 @@ impl<'a, const L: usize> Case<'a, L> {
 
     /// The t at which the line goes through the plane.
     #[inline]
-    fn plane_t(&self, volumes: &Volumes<L>) -> Parameter<L> {
+    fn plane_t(&self, volumes: &Volumes<I>) -> Parameter<I> {
         Parameter::fraction(dot(&self.a[0], &volumes.normal), volumes.sum.clone())
     }
 
     #[inline]
-    fn touch(&self) -> Option<Touch<L>> {
+    fn touch(&self) -> Option<Touch<I>> {
         let volumes = self.volumes()?;
         if volumes.sum.is_zero() {
             return self.touch_in_plane(volumes.normal);
@@ -185,7 +185,7 @@ impl<'a, const L: usize> Case<'a, L> {
 
     /// The line is parallel to the triangle's plane, or the triangle has none.
     #[cold]
-    fn touch_in_plane(&self, normal: [Int<L>; 3]) -> Option<Touch<L>> {
+    fn touch_in_plane(&self, normal: [I; 3]) -> Option<Touch<I>> {
         let Some(axis) = first_nonzero(&normal) else {
             return self.touch_segment();
         };
@@ -206,13 +206,13 @@ impl<'a, const L: usize> Case<'a, L> {
 
     /// The weight of vertex i at a t of a line in the plane, times the normal's component on the axis:
     /// its value at 0 and its slope.
-    fn weight_in_plane(&self, i: usize, axis: usize) -> (Int<L>, Int<L>) {
+    fn weight_in_plane(&self, i: usize, axis: usize) -> (I, I) {
         let (p, q) = (&self.a[(i + 1) % 3], &self.a[(i + 2) % 3]);
         (cross_component(p, q, axis), cross_component(&sub(q, p), &self.direction, axis))
     }
 
     /// The triangle is the segment between two of its vertices, or a point.
-    fn touch_segment(&self) -> Option<Touch<L>> {
+    fn touch_segment(&self) -> Option<Touch<I>> {
         let a0 = &self.a[0];
         let edge = if first_nonzero(&self.edge1).is_some() { &self.edge1 } else { &self.edge2 };
         let across = cross(edge, &self.direction);
@@ -231,14 +231,14 @@ impl<'a, const L: usize> Case<'a, L> {
     }
 
     /// The vertices lie on a line in the ray's direction.
-    fn touch_on_line(&self) -> Option<Touch<L>> {
+    fn touch_on_line(&self) -> Option<Touch<I>> {
         if first_nonzero(&cross(&self.a[0], &self.direction)).is_some() {
             return None;
         }
         let axis = first_nonzero(&self.direction)?;
         let slope = &self.direction[axis];
         let [x0, x1, x2] = self.a.each_ref().map(|a| &a[axis]);
-        let is_less = |x: &Int<L>, y: &Int<L>| x.cmp(y) == Ordering::Less;
+        let is_less = |x: &I, y: &I| x.cmp(y) == Ordering::Less;
         let low = [x1, x2].into_iter().fold(x0, |low, x| if is_less(x, low) { x } else { low });
         let high = [x1, x2].into_iter().fold(x0, |high, x| if is_less(high, x) { x } else { high });
         let mut range = self.range();
@@ -252,7 +252,7 @@ impl<'a, const L: usize> Case<'a, L> {
     }
 
     /// A positive multiple of `at_zero + t · slope`, the same for all functions at one t.
-    fn at(&self, t: &Parameter<L>, at_zero: &Int<L>, slope: &Int<L>) -> Int<L> {
+    fn at(&self, t: &Parameter<I>, at_zero: &I, slope: &I) -> I {
         match t {
             Parameter::Fraction { num, den } => at_zero.mul(den).add(&slope.mul(num)),
             Parameter::Float(t) => {
@@ -261,7 +261,7 @@ impl<'a, const L: usize> Case<'a, L> {
                     return at_zero.clone();
                 }
                 let shift = exponent - self.problem.unit();
-                let step = slope.mul(&Int::from_limb(mantissa, negative));
+                let step = slope.mul(&I::from_limb(mantissa, negative));
                 if shift >= 0 {
                     at_zero.add(&step.shl(shift.unsigned_abs()))
                 } else {
@@ -277,7 +277,7 @@ impl<'a, const L: usize> Case<'a, L> {
             Some(Touch::InPlane { .. } | Touch::Along { is_point: false, .. }) => Verdict::Coplanar,
             Some(Touch::Along { .. }) => Verdict::Vertex(0),
             Some(Touch::Degenerate { place, .. }) => place.verdict,
-            Some(Touch::Crossing { volumes, .. }) => match volumes.s.each_ref().map(Int::is_zero) {
+            Some(Touch::Crossing { volumes, .. }) => match volumes.s.each_ref().map(I::is_zero) {
                 [false, false, false] => Verdict::Interior,
                 [true, false, false] => Verdict::Edge(1),
                 [false, true, false] => Verdict::Edge(2),
@@ -346,29 +346,29 @@ impl<'a, const L: usize> Case<'a, L> {
 }
 
 /// The sign of the first component that is not zero.
-fn first_sign<const L: usize>(v: &[Int<L>; 3]) -> Ordering {
-    let [x, y, z] = v.each_ref().map(Int::sign);
+fn first_sign<I: Integer>(v: &[I; 3]) -> Ordering {
+    let [x, y, z] = v.each_ref().map(I::sign);
     x.then(y).then(z)
 }
 
 const INDEX: [u8; 3] = [0, 1, 2];
 
 /// A point of a triangle that is a segment or a point.
-struct Place<const L: usize> {
+struct Place<I: Integer> {
     verdict: Verdict,
     /// Those of the vertices, up to a factor.
-    weights: [Int<L>; 3],
+    weights: [I; 3],
 }
 
-impl<const L: usize> Place<L> {
+impl<I: Integer> Place<I> {
     /// Where zero lies among the vertices, which are given by their distances along the segment.
-    fn between(vertices: &[Int<L>; 3]) -> Option<Self> {
-        let mut weights = [Int::ZERO; 3];
-        if let Some(i) = vertices.iter().position(Int::is_zero) {
-            weights[i] = Int::from_limb(1, false);
+    fn between(vertices: &[I; 3]) -> Option<Self> {
+        let mut weights = [I::ZERO; 3];
+        if let Some(i) = vertices.iter().position(I::is_zero) {
+            weights[i] = I::from_limb(1, false);
             return Some(Self { verdict: Verdict::Vertex(INDEX[i]), weights });
         }
-        let signs = vertices.each_ref().map(Int::sign);
+        let signs = vertices.each_ref().map(I::sign);
         let i = (0..3).find(|&i| signs[i] != signs[(i + 1) % 3])?;
         let next = (i + 1) % 3;
         weights[i] = vertices[next].abs();
