@@ -21,11 +21,9 @@
 //! | pair | kernel | grade | prepared | paper |
 //! |---|---|---|---|---|
 //! | ray, plane | [`ray::plane`], the default | fast | | |
-//! | | [`ray::plane::exact`] | exact, yes or no | | |
 //! | ray, sphere | [`ray::sphere::robust`], the default | fast, errors ∝ distance | | Haines et al. 2019 |
 //! | | [`ray::sphere::geometric`] | fast, errors ∝ distance² | | Glassner 1989 |
 //! | | [`ray::sphere::algebraic`] | fast, errors ∝ distance² | | Glassner 1989 |
-//! | | [`ray::sphere::exact`] | exact, yes or no | | |
 //! | ray, box | [`ray::aabb::slab`], the default | fast | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
 //! | | [`ray::aabb::conservative`] | conservative | [`ray::aabb::BoxRay`] | after Ize 2013 |
 //! | | [`ray::aabb::exact`] | exact | [`ray::aabb::BoxRay`] | |

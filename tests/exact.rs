@@ -5,14 +5,15 @@ use std::cmp::Ordering;
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::overlap::triangle_aabb::exact as overlap_exact;
 use isect::ray::aabb::{BoxRay, conservative, exact as box_exact};
-use isect::ray::plane::{PlaneHit, exact as plane_exact};
-use isect::ray::sphere::exact as sphere_exact;
+use isect::ray::plane::{self, PlaneHit};
+use isect::ray::sphere::{self, robust};
 use isect::ray::triangle::exact::{self, Verdict};
 use isect::{Number, Plane, Ray, Scalar, Vector};
 
 use crate::support::oracle::TriangleVerdict;
 use crate::support::{
-    aabb, for_every_vector, generators, meshes, name, oracle, ray, scalar, sphere, triangle, vector,
+    aabb, for_every_vector, generators, meshes, name, oracle, ray, scalar, sphere as sphere_of,
+    triangle, vector,
 };
 
 const SEED: u64 = 11;
@@ -329,7 +330,15 @@ fn plane_verdicts_agree_with_the_oracle() {
                 scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
             let offset = exactly::<V>(offset * points);
             let plane = Plane::<V> { normal: vector(normal), offset: scalar(offset) };
-            let verdict = plane_exact::classify(&ray(&case), &plane);
+            let hit = plane::intersect(&ray(&case), &plane);
+            let verdict = hit.map(|hit| match hit {
+                PlaneHit::At(t) => {
+                    let t: f64 = t.into();
+                    assert!(case.t_min <= t && t <= case.t_max && t.is_finite());
+                    PlaneHit::At(())
+                }
+                PlaneHit::Contained => PlaneHit::Contained,
+            });
             let (kind, expected) = match oracle::plane(&case, normal, offset) {
                 oracle::PlaneVerdict::Miss => (0, None),
                 oracle::PlaneVerdict::At => (1, Some(PlaneHit::At(()))),
@@ -344,10 +353,9 @@ fn plane_verdicts_agree_with_the_oracle() {
     for_every_vector!(check);
 }
 
-/// Each root is looked for where the oracle sees the sphere's inside, surface and outside, and the slope of the distance
-/// tells the two outsides apart.
+/// Hit or miss, of the ray and its line, and which of the roots it is.
 #[test]
-fn sphere_roots_agree_with_the_oracle() {
+fn sphere_hits_agree_with_the_oracle() {
     fn check<V: Vector>() {
         let mut rng = fastrand::Rng::with_seed(SEED + 6);
         let (mut hits, mut between, mut missed) = (0_u32, 0_u32, 0_u32);
@@ -360,50 +368,38 @@ fn sphere_roots_agree_with_the_oracle() {
                 scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
             let center = scaled_exactly::<V>(center, points);
             let radius = exactly::<V>(radius * points);
-            let (ray, sphere) = (ray::<V>(&case), sphere::<V>(&center, radius));
-            let context = || format!("{} {case:?} {center:?} {radius}", name::<V>());
+            let (ray, sphere) = (ray::<V>(&case), sphere_of::<V>(&center, radius));
+            let hit = robust::intersect(&ray, &sphere);
+            let context = || format!("{} {case:?} {center:?} {radius} {hit:?}", name::<V>());
             let expected = oracle::sphere(&case, center, radius);
-            assert_eq!(sphere_exact::hits(&ray, &sphere), expected, "{}", context());
-            hits += u32::from(expected);
-            let line = oracle::Ray { t_min: f64::NEG_INFINITY, t_max: f64::INFINITY, ..case };
-            let of_line = oracle::sphere(&line, center, radius);
-            let roots = sphere_exact::classify(&ray, &sphere);
-            let has_range = case.t_min <= case.t_max;
-            assert_eq!(roots.is_some(), of_line && has_range, "{}", context());
-            let Some([near, far]) = roots else {
-                missed += 1;
-                continue;
-            };
-            assert!(near <= far);
-            // Roots up to an end of the range, by the oracle: none, the near one, or both.
-            let before = oracle::Ray { t_min: f64::NEG_INFINITY, t_max: case.t_min, ..case };
-            let after = oracle::Ray { t_min: case.t_max, t_max: f64::INFINITY, ..case };
-            let side = |t| oracle::sphere_side(&line, center, radius, t);
-            if let Some(side) = side(case.t_min).filter(|_| case.t_min.is_finite()) {
-                let starts = oracle::sphere(&before, center, radius) && side != Ordering::Equal;
-                assert_eq!(
-                    (near, far) == (Ordering::Less, Ordering::Less),
-                    starts && side == Ordering::Greater,
-                    "{}",
-                    context()
-                );
-                assert!(
-                    side != Ordering::Less || (near == Ordering::Less && far != Ordering::Less)
-                );
-                between += u32::from(side == Ordering::Less);
+            assert_eq!(hit.is_some(), expected, "{}", context());
+            let line = ray.with_range(-V::Scalar::INFINITY, V::Scalar::INFINITY);
+            let [begin, end] = [f64::NEG_INFINITY, f64::INFINITY];
+            let of_line = oracle::Ray { t_min: begin, t_max: end, ..case };
+            let line_hits = oracle::sphere(&of_line, center, radius);
+            assert_eq!(robust::intersect(&line, &sphere).is_some(), line_hits, "{}", context());
+            if sphere::roots(&ray, &sphere).is_some() {
+                assert!(line_hits, "{}", context());
             }
-            if let Some(side) = side(case.t_max).filter(|_| case.t_max.is_finite()) {
-                let ends = oracle::sphere(&after, center, radius) && side == Ordering::Greater;
-                assert_eq!(
-                    (near, far) == (Ordering::Greater, Ordering::Greater),
-                    ends,
-                    "{}",
-                    context()
-                );
-                assert!(
-                    side != Ordering::Less
-                        || (far == Ordering::Greater && near != Ordering::Greater)
-                );
+            missed += u32::from(!line_hits);
+            let Some(hit) = hit else { continue };
+            hits += 1;
+            let t: f64 = hit.t.into();
+            assert!(case.t_min <= t && t <= case.t_max && t.is_finite(), "{}", context());
+            // From inside the first root in the range is the far one, from outside the near one.
+            let side = oracle::sphere_side(&of_line, center, radius, case.t_min);
+            match side.filter(|_| case.t_min.is_finite()) {
+                Some(Ordering::Less) => {
+                    between += 1;
+                    assert!(hit.leaving, "{}", context());
+                }
+                // It is the near one if there is another after it.
+                Some(Ordering::Equal) => {
+                    let after = oracle::Ray { t_min: case.t_min.next_up(), t_max: end, ..case };
+                    let is_near = oracle::sphere(&after, center, radius);
+                    assert!(!(is_near && hit.leaving), "{}", context());
+                }
+                Some(Ordering::Greater) | None => assert!(!hit.leaving, "{}", context()),
             }
         }
         println!(
@@ -495,12 +491,14 @@ fn all_verdicts_agree_at_the_ends_of_the_exponents() {
                 context()
             );
             let expected_sphere = oracle::sphere(&case, min, radius);
-            let sphere = sphere::<V>(&min, radius);
-            assert_eq!(sphere_exact::hits(&ray, &sphere), expected_sphere, "{}", context());
+            let sphere = sphere_of::<V>(&min, radius);
+            let hit = robust::intersect(&ray, &sphere);
+            assert_eq!(hit.is_some(), expected_sphere, "{}", context());
+            assert!(hit.is_none_or(|hit| hit.t.is_finite()), "{}", context());
             let plane = Plane { normal: vector::<V>(max), offset: scalar(radius) };
             let on_plane = oracle::plane(&case, max, radius) != oracle::PlaneVerdict::Miss;
-            let verdict = plane_exact::classify(&ray, &plane);
-            assert_eq!(verdict.is_some(), on_plane, "{}", context());
+            let hit = plane::intersect(&ray, &plane);
+            assert_eq!(hit.is_some(), on_plane, "{}", context());
             let outcomes =
                 [expected.hits(), expected_box, expected_overlap, expected_sphere, on_plane];
             for (count, outcome) in counts.iter_mut().zip(outcomes) {

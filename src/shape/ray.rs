@@ -100,6 +100,14 @@ impl<V: Vector> Ray<V> {
         self.origin.is_finite() && self.direction.is_finite() && V::Scalar::ZERO.lt(longest)
     }
 
+    /// The float nearest to t in the range, which is not empty, and among the finite ones.
+    #[inline]
+    pub(crate) fn nearest_in_range(&self, t: f64) -> V::Scalar {
+        let largest = V::Scalar::MAX;
+        let (first, last) = (self.t_min.max(-largest), self.t_max.min(largest));
+        first.lit(t).max(first).min(last)
+    }
+
     /// Whether the range holds a finite t.
     #[inline]
     pub(crate) fn has_range(&self) -> bool {

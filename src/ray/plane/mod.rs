@@ -1,10 +1,8 @@
 //! Ray against plane: t = (offset − n·o) / (n·d).
-//!
-//! [`intersect`] is fast; [`exact`] is certain.
 
-pub mod exact;
+mod decide;
 
-use super::{Intersect, in_range};
+use super::Intersect;
 use crate::shape::{Plane, Ray};
 use crate::vector::{Coordinates, Number, Scalar, Vector};
 
@@ -28,16 +26,17 @@ impl<V: Vector> Intersect<V> for Plane<V> {
 
 /// Where the ray meets the plane: `None`, at one t, or everywhere.
 ///
-/// t = (offset − n·o) / (n·d). Where n·d is zero as computed the ray is parallel to the plane, and
-/// contained in it if offset − n·o is zero as computed.
+/// t = N/D with N = offset − n·o and D = n·d. If D = 0 the ray is parallel to the plane, and contained
+/// in it if N = 0.
 ///
-/// **Grade: fast.** With u = EPSILON/2, N = offset − n·o and D = n·d, the computed N is off by at
-/// most 4u·(|offset| + |n|·|o|), D by at most 3u·|n|·|d| (here |n|·|o| stands for the sum of
-/// the products' magnitudes), and the quotient adds u. Which of the three outcomes is reported is
-/// certain beyond these errors.
+/// **Grade: exact** for the outcome, for every finite input. With u = EPSILON/2, |n|·|o| the sum of the
+/// products' magnitudes, and |n|·|d| likewise, t is off by at most
+/// 4u·(|offset| + |n|·|o|)/|D| + |t|·(3u·|n|·|d|/|D| + u), to first order; in the range, and the largest
+/// float where it is beyond that. Floats with an error bound decide; where they leave the outcome open,
+/// integers of a fixed capacity do, and then t is within an ulp.
 ///
-/// A zero direction, a zero normal, a NaN or infinite field, an empty range: a miss. So is a t beyond
-/// the largest float.
+/// A zero direction, a zero normal, a NaN or infinite field, an empty range: a miss. (The formula is
+/// older than its papers; there is none to cite.)
 ///
 /// ```
 /// use isect::{Plane, Ray, glam::Vec3, ray::plane::{self, PlaneHit}};
@@ -51,44 +50,45 @@ impl<V: Vector> Intersect<V> for Plane<V> {
 #[inline]
 #[must_use]
 pub fn intersect<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V::Scalar>> {
-    let (numerator, denominator) = fraction(ray, plane);
-    if !denominator.is_mid_range() {
-        return parallel_or_extreme(ray, plane);
-    }
-    let t = numerator / denominator;
-    in_range(t, ray.t_min, ray.t_max).then_some(PlaneHit::At(t))
+    certain(ray, plane).unwrap_or_else(|| undecided(ray, plane))
 }
 
-const TWO_TO_60: f64 = 1_152_921_504_606_846_976.0;
-
-/// t as a fraction.
+/// The outcome if it is certain; it is not for a ray that is parallel to the plane.
+///
+/// Of N each product carries 4 roundings, of D 3; the bounds have 6 of each, to outweigh terms of second
+/// order and their own rounding, and a little for what underflow loses. Then |N − t·D| ≤ δN + |t|·δD
+/// for the exact numerator and denominator and the computed t, and where D's sign is certain t lies on
+/// that side of an end of the range on which it seems to be if it is further off than that over |D|, and
+/// than its own rounding.
 #[inline(always)]
-fn fraction<V: Coordinates>(ray: &Ray<V>, plane: &Plane<V>) -> (V::Scalar, V::Scalar) {
-    (plane.offset - plane.normal.dot(ray.origin), plane.normal.dot(ray.direction))
+fn certain<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<Option<PlaneHit<V::Scalar>>> {
+    let Plane { normal, offset } = *plane;
+    let numerator = offset - normal.dot(ray.origin);
+    let denominator = normal.dot(ray.direction);
+    let t = numerator / denominator;
+
+    let sizes = Coordinates::abs(normal);
+    let (roundings, tiny) = (V::Scalar::EPSILON * t.lit(3.0), V::Scalar::MIN_POSITIVE);
+    let numerator_error =
+        roundings * (offset.abs() + sizes.dot(Coordinates::abs(ray.origin))) + tiny;
+    let denominator_error = roundings * sizes.dot(Coordinates::abs(ray.direction)) + tiny;
+    let steepness = denominator.abs();
+    let error = numerator_error + t.abs() * (denominator_error + roundings * steepness);
+
+    let within = (t - ray.t_min).min(ray.t_max - t);
+    let is_certain = steepness > denominator_error
+        && (within * steepness).abs() > error
+        && ray.t_min <= ray.t_max;
+    is_certain.then(|| (within > V::Scalar::ZERO).then_some(PlaneHit::At(t)))
 }
 
-/// A denominator of zero, or one that has left the range of exponents in which products neither
-/// over- nor underflow: decides again with a direction of about 2⁶⁰, which makes the products of its
-/// small components large enough, and with a normal of moderate length, by powers of two.
 #[cold]
-fn parallel_or_extreme<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V::Scalar>> {
-    if !(ray.is_valid() && plane.is_valid()) {
-        return None;
-    }
-    let one = V::Scalar::ONE;
-    let longest = Coordinates::abs(plane.normal).max_element();
-    let scale = if (longest * longest).is_mid_range() { one } else { longest.normalizer() };
-    let large = one.lit(TWO_TO_60);
-    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
-    let plane = Plane { normal: plane.normal * scale, offset: plane.offset * scale };
-    let long_ray = Ray { direction: ray.direction.times_powers(t_scale, large), ..*ray };
-    let (numerator, denominator) = fraction(&long_ray, &plane);
-    if denominator == V::Scalar::ZERO {
-        let contained = numerator == V::Scalar::ZERO && ray.t_min <= ray.t_max;
-        return contained.then_some(PlaneHit::Contained);
-    }
-    let t = numerator / denominator * large * t_scale;
-    in_range(t, ray.t_min, ray.t_max).then_some(PlaneHit::At(t))
+#[inline(never)]
+fn undecided<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V::Scalar>> {
+    Some(match decide::outcome(ray, plane)? {
+        PlaneHit::Contained => PlaneHit::Contained,
+        PlaneHit::At(t) => PlaneHit::At(ray.nearest_in_range(t)),
+    })
 }
 
 #[cfg(test)]
@@ -110,6 +110,27 @@ mod tests {
         assert_eq!(intersect(&line, &FLOOR), Some(PlaneHit::At(-2.0)));
     }
 
+    /// The numerator, or a product in it, over- or underflows.
+    #[test]
+    fn products_beyond_the_exponents() {
+        let along = |normal: f32, origin: f32, direction: f32| {
+            let plane = Plane { normal: Vec3::X * normal, offset: 0.0 };
+            intersect(&Ray::new(Vec3::X * origin, Vec3::X * direction), &plane)
+        };
+        let at = |t: f32| {
+            let neighbours = [t.next_down(), t, t.next_up()];
+            move |hit| neighbours.map(|t| Some(PlaneHit::At(t))).contains(&hit)
+        };
+        assert!(at(1e30)(along(1e20, -1e20, 1e-10)));
+        assert_eq!(along(1e-30, 1e-20, 1e20), None);
+        assert!(at(1e-40)(along(1e-30, -1e-20, 1e20)));
+        for normal in [1.0, 1e9, 1e-9, 1e38] {
+            let plane = Plane { normal: Vec3::new(normal, -normal, 0.0), offset: 0.0 };
+            let ray = Ray::new(Vec3::new(1e30, 1e30, 0.0), Vec3::new(1.0, 1.0, 0.0));
+            assert_eq!(intersect(&ray, &plane), Some(PlaneHit::Contained), "{normal}");
+        }
+    }
+
     #[test]
     fn an_empty_range_contains_nothing() {
         let along = Ray::new(Vec3::new(0.0, 2.0, 0.0), Vec3::X);
@@ -121,6 +142,7 @@ mod tests {
     #[test]
     fn lengths_of_normal_and_direction_do_not_matter() {
         for (normal, direction) in [
+            (1e-20, 1e10),
             (1e-30, 1e-30),
             (1e30, 1e30),
             (1e-38, 1.0),

@@ -1,18 +1,16 @@
 //! Ray against sphere.
 //!
-//! Three kernels solve d²·t² − 2(f·d)·t + f² − r² = 0, f the vector from the ray's origin to
+//! All three kernels solve d²·t² − 2(f·d)·t + f² − r² = 0, f the vector from the ray's origin to
 //! the centre; they differ in how they come to the roots.
-//! The last decides where the roots are without computing them.
 //!
-//! | kernel | construction | good for |
-//! |---|---|---|
-//! | [`robust`] | perpendicular distance, stable roots | everything; the default |
-//! | [`geometric`] | closest approach and half chord | rays that start within a few hundred radii |
-//! | [`algebraic`] | the quadratic formula | the same |
-//! | [`exact`] | signs of integers | a certain yes or no |
+//! | kernel | grade | construction | good for |
+//! |---|---|---|---|
+//! | [`robust`] | exact | perpendicular distance, stable roots | everything; the default |
+//! | [`geometric`] | fast | closest approach and half chord | rays that start within a few hundred radii |
+//! | [`algebraic`] | fast | the quadratic formula | the same |
 
 pub mod algebraic;
-pub mod exact;
+mod decide;
 pub mod geometric;
 pub mod robust;
 
@@ -40,8 +38,8 @@ impl<V: Vector> Intersect<V> for Sphere<V> {
 }
 
 /// Both roots, near and far, of the whole line, whatever the ray's range; computed as
-/// [`robust::intersect`] does. `None` where the line misses the sphere, for bad input, and where a
-/// root is beyond the largest float.
+/// [`robust::intersect`] does. `None` where the line misses the sphere, exactly; for bad input; and
+/// where a root is beyond the largest float.
 ///
 /// ```
 /// use isect::{Ray, Sphere, glam::Vec3, ray::sphere};
@@ -52,7 +50,7 @@ impl<V: Vector> Intersect<V> for Sphere<V> {
 #[inline]
 #[must_use]
 pub fn roots<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[V::Scalar; 2]> {
-    solve(ray, sphere, robust::solve).filter(|roots| roots.iter().all(|t| t.is_finite()))
+    robust::roots(ray, sphere).filter(|roots| roots.iter().all(|t| t.is_finite()))
 }
 
 /// The quadratic as each kernel gets it: `a = d²` and `b = f·d` are computed already.
@@ -79,6 +77,36 @@ impl<V: Coordinates> Quadratic<V> {
 /// The roots in order, NaN where there are none.
 type Roots<N> = [N; 2];
 
+/// The quadratic, if its squares and products stay in the middle of the range of exponents.
+#[inline(always)]
+fn quadratic<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<Quadratic<V>> {
+    let q = Quadratic::new(ray.direction, sphere.center - ray.origin, sphere.radius);
+    let lengths = q.f2 + q.r * q.r;
+    let mid_range = q.a.is_mid_range() & lengths.is_mid_range() & (q.a * lengths).is_mid_range();
+    (mid_range & V::Scalar::ZERO.le(q.r)).then_some(q)
+}
+
+/// The quadratic with the direction, and the lengths, brought to about 1 by powers of two, and these. `None`
+/// for bad input.
+fn scaled<V: Vector>(
+    ray: &Ray<V>,
+    sphere: &Sphere<V>,
+) -> Option<(Quadratic<V>, V::Scalar, V::Scalar)> {
+    if !(ray.is_valid() && sphere.is_valid()) {
+        return None;
+    }
+    let one = V::Scalar::ONE;
+    let halved = |by| (sphere.center * by - ray.origin * by, sphere.radius * by, by);
+    let (mut f, mut radius, mut by) = halved(one);
+    if !f.is_finite() {
+        (f, radius, by) = halved(one.lit(0.5));
+    }
+    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
+    let scale = Coordinates::abs(f).max_element().max(radius).normalizer();
+    let q = Quadratic::new(ray.direction * t_scale, f * scale, radius * scale);
+    Some((q, t_scale, scale * by))
+}
+
 /// Solves for the roots with one of the kernels; starts again with a scaled problem where squares
 /// leave the range of exponents.
 #[inline(always)]
@@ -87,29 +115,19 @@ fn solve<V: Vector>(
     sphere: &Sphere<V>,
     kernel: impl Fn(&Quadratic<V>) -> Roots<V::Scalar>,
 ) -> Option<Roots<V::Scalar>> {
-    let q = Quadratic::new(ray.direction, sphere.center - ray.origin, sphere.radius);
-    let lengths = q.f2 + q.r * q.r;
-    let mid_range = q.a.is_mid_range() & lengths.is_mid_range() & (q.a * lengths).is_mid_range();
-    if mid_range & V::Scalar::ZERO.le(q.r) {
+    if let Some(q) = quadratic(ray, sphere) {
         return Some(kernel(&q));
     }
     extreme(ray, sphere, kernel)
 }
 
-/// The direction, and the lengths, are brought to about 1 by powers of two.
 #[cold]
 fn extreme<V: Vector>(
     ray: &Ray<V>,
     sphere: &Sphere<V>,
     kernel: impl Fn(&Quadratic<V>) -> Roots<V::Scalar>,
 ) -> Option<Roots<V::Scalar>> {
-    if !(ray.is_valid() && sphere.is_valid()) {
-        return None;
-    }
-    let f = sphere.center - ray.origin;
-    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
-    let scale = Coordinates::abs(f).max_element().max(sphere.radius).normalizer();
-    let q = Quadratic::new(ray.direction * t_scale, f * scale, sphere.radius * scale);
+    let (q, t_scale, scale) = scaled(ray, sphere)?;
     Some(kernel(&q).map(|t| t.times_ratio(t_scale, scale)))
 }
 

@@ -1,12 +1,15 @@
-//! Ray against sphere without the cancellations.
+//! Ray against sphere without the cancellations, and never wrong.
 //!
 //! E. Haines, J. Günther, T. Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection",
 //! Ray Tracing Gems, 2019, chapter 7: the discriminant from the vector that is perpendicular to the
-//! ray, and the root that would cancel from the product of the roots.
+//! ray, and the root that would cancel from the product of the roots. Its error bound tells where hit
+//! or miss, and an end of the range, are certain; where they are not, integers decide.
 
-use super::{Quadratic, Roots, SphereHit, nearest};
+use core::cmp::Ordering;
+
+use super::{Quadratic, SphereHit, decide};
 use crate::shape::{Ray, Sphere};
-use crate::vector::{Coordinates, Number, Vector};
+use crate::vector::{Coordinates, Number, Scalar, Vector};
 
 /// The nearest root in the ray's range, accurate for far origins and for spheres of any size.
 ///
@@ -14,12 +17,12 @@ use crate::vector::{Coordinates, Number, Vector};
 /// discriminant is d²·(r + |q|)·(r − |q|), and with s = f·d ± its root, the sign that of
 /// f·d, the roots are s/d² and (f² − r²)/s, where f² − r² = (|f| + r)·(|f| − r).
 ///
-/// **Grade: fast**, with errors in proportion to the distance and no longer to its square: each
-/// computed root is the exact one for a radius that differs by at most 16u·(|f| + r),
-/// u = EPSILON/2. So hit or miss is certain unless the line passes the surface within that distance.
+/// **Grade: exact** for hit or miss, and for which root it is, for every finite input. t has an error in
+/// proportion to the distance and not to its square: it is the exact one for a radius that differs by at
+/// most 16u·(|f| + r), u = EPSILON/2; it is in the range, and the largest float where it is beyond that.
 ///
-/// A zero direction, a negative radius, a NaN or infinite field: a miss; a root beyond the largest
-/// float does not count. A radius of zero is a point.
+/// A zero direction, a negative radius, a NaN or infinite field, an empty range: a miss. A radius of zero is
+/// a point.
 ///
 /// ```
 /// use isect::{Ray, Sphere, glam::Vec3, ray::sphere::robust};
@@ -27,27 +30,107 @@ use crate::vector::{Coordinates, Number, Vector};
 /// let ray = Ray::new(Vec3::new(0.0, 0.0, -1.0e6), Vec3::Z);
 /// let hit = robust::intersect(&ray, &Sphere::new(Vec3::ZERO, 1.0)).expect("a hit");
 /// assert_eq!((hit.t, hit.leaving), (999_999.0, false));
+/// // A tangent is a hit, the next float is a miss.
+/// let at = |x| Ray::new(Vec3::new(x, 0.0, -1.0e6), Vec3::Z);
+/// assert!(robust::intersect(&at(1.0), &Sphere::new(Vec3::ZERO, 1.0)).is_some());
+/// assert!(robust::intersect(&at(1.000_000_1), &Sphere::new(Vec3::ZERO, 1.0)).is_none());
 /// ```
 #[inline]
 #[must_use]
 pub fn intersect<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<SphereHit<V::Scalar>> {
-    nearest(ray, super::solve(ray, sphere, solve)?)
+    certain(ray, sphere).unwrap_or_else(|| undecided(ray, sphere))
 }
 
+/// What there is to know of a line and a sphere.
+struct Solution<T> {
+    near: T,
+    far: T,
+    /// How much further from the centre the surface is than the line; it is off by at most `error`.
+    clearance: T,
+    /// 16u·(|f| + r)
+    error: T,
+    /// By how much each root may be off, if the clearance is more than four errors.
+    root_error: T,
+}
+
+/// **The bounds.** u is EPSILON/2 and |f| stands for the distance from the origin to the centre. f has
+/// one rounding; f·d is off by 4u|f||d|, (f·d)/d² by 8u|f|/|d|, and q in all by 11u|f|. So |q| is off by
+/// 14u|f|, and r − |q| by less than 16u(|f| + r). Let c be half the chord: c² = (r + |q|)(r − |q|). If
+/// r − |q| is large against its error, the root of the discriminant, |d|c, is off by
+/// |d|(14u|f|r/c + 4uc); s with it by 4u|f||d| more; s/d² by at most 24u(|f| + r)(r/c)/|d|, as c ≤ r.
+/// Of the other root, |f| − r is off by 3.5u|f|, which |s| ≥ |d|c divides; it is the lesser one, so that
+/// the error of s counts no more than in the first: in all at most 48u(|f| + r)(r/c)/|d|. Taken are 64u.
 #[inline(always)]
-pub(super) fn solve<V: Coordinates>(q: &Quadratic<V>) -> Roots<V::Scalar> {
-    let zero = q.a.lit(0.0);
+fn solve<T: Scalar, V: Coordinates<Scalar = T>>(q: &Quadratic<V>) -> Solution<T> {
     let b = q.f.dot(q.d);
     let perpendicular = q.f - q.d * (b / q.a);
     let h = perpendicular.dot(perpendicular).sqrt();
-    let root = (q.a * ((q.r + h) * (q.r - h))).sqrt();
+    let clearance = q.r - h;
+    // Of a line that passes by: as if it were a tangent.
+    let root = (q.a * ((q.r + h) * clearance)).max(T::ZERO).sqrt();
     let f = q.f2.sqrt();
     let c = (f + q.r) * (f - q.r);
-    let s = V::Scalar::select(b.lt(zero), b - root, b + root);
+    let s = if b < T::ZERO { b - root } else { b + root };
     let first = s / q.a;
     // s is zero only where the ray starts at a tangent's touching point: both roots are zero then.
-    let second = V::Scalar::select(zero.lt(s.abs()), c / s, s);
-    // `min` and `max` would drop a NaN in their first operand, but where there is no root both
-    // operands are NaN.
-    [first.min(second), first.max(second)]
+    let second = if s == T::ZERO { s } else { c / s };
+    let error = (f + q.r) * (T::EPSILON * b.lit(8.0));
+    let root_error = error * b.lit(4.0) * (q.r / root);
+    Solution { near: first.min(second), far: first.max(second), clearance, error, root_error }
+}
+
+/// The verdict if it is certain.
+#[inline(always)]
+fn certain<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<Option<SphereHit<V::Scalar>>> {
+    let Solution { near, far, clearance, error, root_error } =
+        solve(&super::quadratic(ray, sphere)?);
+    let Ray { t_min, t_max, .. } = *ray;
+    if clearance < -error {
+        return Some(None);
+    }
+    let four = error.lit(4.0);
+    if !(clearance > error * four && t_min <= t_max) {
+        return None;
+    }
+    // In the range or not, if that is certain.
+    let is_in_range = |t: V::Scalar| {
+        let within = (t - t_min).min(t_max - t);
+        (within.abs() > root_error).then_some(within > V::Scalar::ZERO)
+    };
+    if is_in_range(near)? {
+        return Some(Some(SphereHit { t: near, leaving: false }));
+    }
+    Some(is_in_range(far)?.then_some(SphereHit { t: far, leaving: true }))
+}
+
+#[cold]
+#[inline(never)]
+fn undecided<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<SphereHit<V::Scalar>> {
+    let leaving = match decide::classify(ray, sphere)? {
+        [Ordering::Equal, _] => false,
+        [_, Ordering::Equal] => true,
+        _ => return None,
+    };
+    let [near, far] = scaled_roots(ray, sphere)?;
+    let t = ray.nearest_in_range(if leaving { far } else { near }.into());
+    Some(SphereHit { t, leaving })
+}
+
+/// Both roots of the line, or those of a tangent where it seems to pass by. `None` for bad input.
+fn scaled_roots<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[V::Scalar; 2]> {
+    let (q, t_scale, scale) = super::scaled(ray, sphere)?;
+    let Solution { near, far, .. } = solve(&q);
+    Some([near, far].map(|t| t.times_ratio(t_scale, scale)))
+}
+
+/// Both roots of the line, `None` where it misses.
+pub(super) fn roots<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[V::Scalar; 2]> {
+    if let Some(q) = super::quadratic(ray, sphere) {
+        let Solution { near, far, clearance, error, .. } = solve(&q);
+        if clearance.abs() > error {
+            return (clearance > V::Scalar::ZERO).then_some([near, far]);
+        }
+    }
+    let line = ray.with_range(-V::Scalar::INFINITY, V::Scalar::INFINITY);
+    decide::classify(&line, sphere).and_then(|_| scaled_roots(ray, sphere))
 }

@@ -132,16 +132,9 @@ fn wide_triangle<V: Vector>(triangle: &Triangle<V>) -> Triangle<DVec3> {
 
 /// The hit at a point of the ray's range.
 fn rounded<V: Vector>(ray: &Ray<V>, location: &Location) -> TriangleHit<V::Scalar> {
+    let Location { t, u, v, front } = *location;
     let zero = V::Scalar::ZERO;
-    // Rounding may have left the range by an ulp, or reached infinity.
-    let largest = V::Scalar::MAX;
-    let (t_min, t_max) = (ray.t_min.max(-largest), ray.t_max.min(largest));
-    TriangleHit {
-        t: zero.lit(location.t).max(t_min).min(t_max),
-        u: zero.lit(location.u),
-        v: zero.lit(location.v),
-        front: location.front,
-    }
+    TriangleHit { t: ray.nearest_in_range(t), u: zero.lit(u), v: zero.lit(v), front }
 }
 
 /// Where the ray meets the triangle, in the closed range of the ray: on which part of it.

@@ -6,42 +6,28 @@ use super::PlaneHit;
 use crate::exact::grid::Grid;
 use crate::exact::integer::{Capacity, Integer, Large, Narrow, Small, dot};
 use crate::exact::interval::{Interval, Parameter};
+use crate::exact::wide;
 use crate::shape::{Plane, Ray};
 use crate::vector::Vector;
 
-/// Whether the ray crosses the plane in the closed range of the ray, lies in it, or misses it.
+/// How the ray meets the plane in its closed range, for every finite input, with t within an ulp, in `f64`;
+/// it may be infinite or, rounded, beyond an end of the range. `None` for a miss and for bad input.
 ///
-/// With N = offset − n·o and D = n·d: if D = 0, contained where N = 0; else at t = N / D, which is
-/// compared with the range as a fraction, and may be beyond the largest float.
-///
-/// **Grade: exact**, for every finite input.
-///
-/// A zero direction, a zero normal, a NaN or infinite field, an empty range: a miss.
-///
-/// ```
-/// use isect::{Plane, Ray, glam::Vec3, ray::plane::{PlaneHit, exact}};
-///
-/// let floor = Plane { normal: Vec3::new(0.1, 0.2, -0.3), offset: 0.0 };
-/// let along = Ray::new(Vec3::ZERO, Vec3::new(2.0, -1.0, 0.0));
-/// assert_eq!(exact::classify(&along, &floor), Some(PlaneHit::Contained));
-/// let beside = Ray { origin: Vec3::new(0.0, 1e-40, 0.0), ..along };
-/// assert_eq!(exact::classify(&beside, &floor), None);
-/// ```
-#[must_use]
-pub fn classify<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<()>> {
+/// With N = offset − n·o and D = n·d: if D = 0, contained where N = 0; else at t = N/D, which is compared
+/// with the range as a fraction.
+pub(super) fn outcome<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<f64>> {
     if !(ray.is_valid() && ray.has_range() && plane.is_valid()) {
         return None;
     }
-    let array = |v: V| [v.x().into(), v.y().into(), v.z().into()];
     let problem = Problem {
-        origin: array(ray.origin),
-        direction: array(ray.direction),
+        origin: wide(ray.origin).to_array(),
+        direction: wide(ray.direction).to_array(),
         t_min: ray.t_min.into(),
         t_max: ray.t_max.into(),
-        normal: array(plane.normal),
+        normal: wide(plane.normal).to_array(),
         offset: plane.offset.into(),
     };
-    problem.classify()
+    problem.outcome()
 }
 
 struct Problem {
@@ -63,8 +49,7 @@ struct Grids {
 }
 
 impl Problem {
-    #[cold]
-    fn classify(&self) -> Option<PlaneHit<()>> {
+    fn outcome(&self) -> Option<PlaneHit<f64>> {
         let points = Grid::through(&self.origin);
         let directions = Grid::through(&self.direction);
         let normals = Grid::through(&self.normal);
@@ -79,7 +64,7 @@ impl Problem {
         }
     }
 
-    fn decide<I: Integer>(&self, grids: Grids) -> Option<PlaneHit<()>> {
+    fn decide<I: Integer>(&self, grids: Grids) -> Option<PlaneHit<f64>> {
         let Grids { points, directions, normals, heights } = grids;
         let normal = normals.vector::<I>(self.normal);
         let height = dot(&normal, &points.vector(self.origin));
@@ -91,7 +76,8 @@ impl Problem {
         }
         let unit = heights.exponent() - normals.exponent() - directions.exponent();
         let range = Interval::new(self.t_min, self.t_max, unit);
-        range.contains(&Parameter::fraction(height, slope)).then_some(PlaneHit::At(()))
+        let t = Parameter::fraction(height, slope);
+        range.contains(&t).then(|| PlaneHit::At(t.to_float(unit)))
     }
 }
 
@@ -106,16 +92,18 @@ mod tests {
         let down = Ray::new(Vec3::new(5.0, 1.0, 0.0), Vec3::NEG_Y);
         // t = 2/3 is no float.
         let near = 2.0_f32 / 3.0;
-        assert_eq!(classify(&down.with_range(near, near), &plane), None);
+        assert_eq!(outcome(&down.with_range(near, near), &plane), None);
         let around = down.with_range(near.next_down(), near.next_up());
-        assert_eq!(classify(&around, &plane), Some(PlaneHit::At(())));
-        assert_eq!(classify(&Ray { direction: Vec3::X, ..down }, &plane), None);
-        assert_eq!(classify(&down.with_range(2.0, 1.0), &plane), None);
-        assert_eq!(classify(&down, &Plane { normal: Vec3::ZERO, offset: 0.0 }), None);
+        let Some(PlaneHit::At(t)) = outcome(&around, &plane) else { panic!("it crosses") };
+        // Within an ulp, 2⁻⁵³, of 2/3, which is as near to the literal.
+        assert!((t - 2.0 / 3.0).abs() <= f64::EPSILON);
+        assert_eq!(outcome(&Ray { direction: Vec3::X, ..down }, &plane), None);
+        assert_eq!(outcome(&down.with_range(2.0, 1.0), &plane), None);
+        assert_eq!(outcome(&down, &Plane { normal: Vec3::ZERO, offset: 0.0 }), None);
         // From a point at zero, without an offset.
         let through = Plane { normal: Vec3::new(1e-30, 0.0, 0.0), offset: 0.0 };
         let ray = Ray::new(Vec3::ZERO, Vec3::new(0.0, 1e30, 0.0));
-        assert_eq!(classify(&ray, &through), Some(PlaneHit::Contained));
+        assert_eq!(outcome(&ray, &through), Some(PlaneHit::Contained));
     }
 
     /// The largest numbers and the smallest in one sum: the products do not fit in floats.
@@ -124,13 +112,13 @@ mod tests {
         let (large, small) = (f64::MAX, f64::from_bits(1));
         let normal = DVec3::new(large, small, -large);
         let along = |origin: DVec3| Ray::new(origin, DVec3::new(large, 0.0, large));
-        let on_plane = |origin, offset| classify(&along(origin), &Plane { normal, offset });
+        let on_plane = |origin, offset| outcome(&along(origin), &Plane { normal, offset });
         assert_eq!(on_plane(DVec3::new(large, 0.0, large), 0.0), Some(PlaneHit::Contained));
         assert_eq!(on_plane(DVec3::new(large, small, large), 0.0), None);
         assert_eq!(on_plane(DVec3::new(large, 1.0, large), small), Some(PlaneHit::Contained));
         let down =
             Ray { direction: DVec3::NEG_Y * small, ..along(DVec3::new(large, small, large)) };
-        let at = |t| classify(&down.with_range(t, t), &Plane { normal, offset: 0.0 });
-        assert_eq!((at(1.0), at(1.0_f64.next_down())), (Some(PlaneHit::At(())), None));
+        let at = |t| outcome(&down.with_range(t, t), &Plane { normal, offset: 0.0 });
+        assert_eq!((at(1.0), at(1.0_f64.next_down())), (Some(PlaneHit::At(1.0)), None));
     }
 }

@@ -4,6 +4,7 @@ use core::cmp::Ordering;
 
 use crate::exact::grid::{Grid, Parts};
 use crate::exact::integer::{Capacity, Integer, Large, Narrow, Small, dot, sub};
+use crate::exact::wide;
 use crate::shape::{Ray, Sphere};
 use crate::vector::Vector;
 
@@ -14,51 +15,18 @@ use crate::vector::Vector;
 /// sign of g(t) = |t·d − f|² − r² tells whether a t is between the roots; where it is not, the sign of
 /// (t·d − f)·d tells on which side.
 ///
-/// **Grade: exact**, for every finite input.
-///
-/// A zero direction, a negative radius, a NaN or infinite field, an empty range: `None`.
-///
-/// ```
-/// use std::cmp::Ordering::{Equal, Greater, Less};
-/// use isect::{Ray, Sphere, glam::Vec3, ray::sphere::exact::classify};
-///
-/// let sphere = Sphere::new(Vec3::ZERO, 1.0);
-/// let ray = Ray::new(Vec3::new(1.0, 0.0, -3.0), Vec3::Z);
-/// assert_eq!(classify(&ray, &sphere), Some([Equal, Equal]), "a tangent");
-/// let inside = Ray { origin: Vec3::ZERO, ..ray };
-/// assert_eq!(classify(&inside, &sphere), Some([Less, Equal]));
-/// assert_eq!(classify(&inside.before(1.0), &sphere), Some([Less, Greater]));
-/// let beside = Ray { origin: Vec3::new(1.0, 1e-30, -3.0), ..ray };
-/// assert_eq!(classify(&beside, &sphere), None);
-/// ```
-#[must_use]
-pub fn classify<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[Ordering; 2]> {
+/// Also `None` for a zero direction, a negative radius, a NaN or infinite field, an empty range.
+pub(super) fn classify<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[Ordering; 2]> {
     if !(ray.is_valid() && ray.has_range() && sphere.is_valid()) {
         return None;
     }
-    let array = |v: V| [v.x().into(), v.y().into(), v.z().into()];
     Problem::new(
-        array(ray.origin),
-        array(ray.direction),
-        array(sphere.center),
+        wide(ray.origin).to_array(),
+        wide(ray.direction).to_array(),
+        wide(sphere.center).to_array(),
         sphere.radius.into(),
     )
     .classify(ray.t_min.into(), ray.t_max.into())
-}
-
-/// Whether the ray meets the sphere, in the closed range of the ray: a root of [`classify`] is in the
-/// range.
-///
-/// ```
-/// use isect::{Ray, Sphere, glam::Vec3, ray::sphere::exact};
-///
-/// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
-/// let sphere = Sphere::new(Vec3::ZERO, 2.0);
-/// assert!(exact::hits(&ray, &sphere) && !exact::hits(&ray.before(2.0), &sphere));
-/// ```
-#[must_use]
-pub fn hits<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> bool {
-    classify(ray, sphere).is_some_and(|roots| roots.contains(&Ordering::Equal))
 }
 
 /// A line and a sphere.
@@ -80,7 +48,6 @@ impl Problem {
         Self { origin, direction, center, radius, points, directions }
     }
 
-    #[cold]
     fn classify(&self, t_min: f64, t_max: f64) -> Option<[Ordering; 2]> {
         let (p, d) = (self.points.bits(), self.directions.bits());
         let is_hit = match Capacity::of(2 * p + 2 * d + 8) {
@@ -173,7 +140,8 @@ mod tests {
         assert_eq!(roots(2.0, 1.0), None);
         assert_eq!(classify(&ray, &Sphere::new(Vec3::ZERO, -1.0)), None);
         let point = Sphere::new(Vec3::ZERO, 0.0);
-        assert!(hits(&ray, &point) && !hits(&ray.after(1.5), &point));
+        assert_eq!(classify(&ray, &point), Some([Equal, Equal]));
+        assert_eq!(classify(&ray.after(1.5), &point), Some([Less, Less]));
         let from_it = Ray::new(Vec3::ZERO, Vec3::X);
         assert_eq!(classify(&from_it, &point), Some([Equal, Equal]));
     }
