@@ -513,3 +513,61 @@ fn all_verdicts_agree_at_the_ends_of_the_exponents() {
     }
     for_every_vector!(check);
 }
+
+/// Nearly ±2^bits in most coordinates and ±1 in one, which need a grid of so many bits.
+fn extreme_point(rng: &mut fastrand::Rng, bits: i32) -> [f64; 3] {
+    let most = 2f64.powi(bits).next_down();
+    let mut point = [(); 3].map(|()| if rng.bool() { most } else { -most });
+    point[rng.usize(..3)] = if rng.bool() { 1.0 } else { -1.0 };
+    point
+}
+
+/// Numbers as long as each capacity of the integers admits, and a little longer: from 254 bits on, and from 512.
+#[test]
+fn every_capacity_holds_the_largest_numbers_that_it_admits() {
+    let mut rng = fastrand::Rng::with_seed(SEED + 8);
+    let mut counts = [0_u32; 5];
+    for _ in 0..100_000 {
+        let p = if rng.bool() { rng.i32(53..=66) } else { rng.i32(116..=132) };
+        let d = if rng.bool() { rng.i32(53..=66) } else { rng.i32(100..=132) };
+        let origin = extreme_point(&mut rng, p);
+        let v = [(); 3].map(|()| extreme_point(&mut rng, p));
+        let case = oracle::Ray {
+            origin,
+            direction: extreme_point(&mut rng, d),
+            t_min: f64::NEG_INFINITY,
+            t_max: f64::INFINITY,
+        };
+        let (a, b) = (extreme_point(&mut rng, p), extreme_point(&mut rng, p));
+        let min: [f64; 3] = std::array::from_fn(|k| a[k].min(b[k]));
+        let max: [f64; 3] = std::array::from_fn(|k| a[k].max(b[k]));
+        // Up to the hit of the triangle, as rounded, and from there on.
+        let (line, triangle, aabb) = (ray::<DVec3>(&case), triangle(&v), aabb(&min, &max));
+        let t = exact::refine(&line, &triangle).t;
+        let radius = 2f64.powi(p).next_down();
+        for (t_min, t_max) in [(case.t_min, t), (t, case.t_max), (-t, 1.0 / t)] {
+            if t == 0.0 {
+                continue;
+            }
+            let case = oracle::Ray { t_min, t_max, ..case };
+            let ray = ray::<DVec3>(&case);
+            let outcomes = [
+                (exact::hits(&ray, &triangle), oracle::triangle(&case, v).hits()),
+                (box_exact::hits(&BoxRay::new(&ray), &aabb), oracle::aabb(&case, min, max)),
+                (sphere_exact::hits(&ray, &sphere(&a, radius)), oracle::sphere(&case, a, radius)),
+                (
+                    plane_exact::classify(&ray, &Plane { normal: vector(b), offset: radius })
+                        .is_some(),
+                    oracle::plane(&case, b, radius) != oracle::PlaneVerdict::Miss,
+                ),
+                (overlap_exact::overlaps(&triangle, &aabb), oracle::triangle_aabb_sat(v, min, max)),
+            ];
+            for (count, (verdict, expected)) in counts.iter_mut().zip(outcomes) {
+                assert_eq!(verdict, expected, "{p} {d} {case:?} {v:?} {min:?} {max:?}");
+                *count += u32::from(expected);
+            }
+        }
+    }
+    println!("hits of triangle, box, sphere, plane, overlap: {counts:?}");
+    assert!(counts.iter().all(|&count| count > 1_000), "{counts:?}");
+}

@@ -37,7 +37,7 @@ impl<I: Integer> Parameter<I> {
         }
     }
 
-    /// The nearest float or a neighbour of it: see [`I::quotient`].
+    /// The nearest float or a neighbour of it: see [`Integer::quotient`].
     pub(crate) fn to_float(&self, unit: i32) -> f64 {
         match self {
             Self::Float(t) => *t,
