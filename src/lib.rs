@@ -58,8 +58,8 @@
 //! * Bad input is a miss: a zero direction, an empty box, a NaN or infinite coordinate (but the bounds
 //!   of a box may be infinite), an empty range. Nothing panics, and no hit holds a NaN.
 //! * A triangle without area is missed by the ray kernels (the watertight one may still hit one that
-//!   is not flat as it sees it, so that it closes the gap between its neighbours); to the kernels of
-//!   [`overlap`] it is the segment or the point that it is.
+//!   is not flat as it sees it, so that it closes the gap between its neighbours); to
+//!   [`ray::triangle::exact`] and the kernels of [`overlap`] it is the segment or the point that it is.
 //!
 //! # Generic code
 //!

@@ -40,9 +40,8 @@
 //! inside, and the ray hits but the far side; into a box it is behind the face. (A point on an edge of
 //! the box is on another face as well, and the ray may enter by that.)
 //!
-//! The errors leave room for the rounding of the recommended kernels: the watertight, robust and slab
-//! kernels do not hit the surface either, nor does the conservative one; nor does the plane's, unless it
-//! rounds n·d to the other sign. Other kernels may, where their own error bounds are larger.
+//! The recommended kernels, which are exact, hit the surface no more than exact arithmetic does. Others
+//! may, where the ray is within their own error bounds of it: the errors here leave no room for them.
 //!
 //! After M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, 3.9.5,
 //! "Robust Spawned Ray Origins". There, errors are bounded in advance, and the side of a flat ray is
@@ -65,26 +64,17 @@ impl<T: Scalar> TriangleHit<T> {
     ///
     /// * γ(3)·(|e| + |f|) + u·|p|: a difference, a product and a sum, then the last sum. (4u stand for
     ///   γ(3), and make up for the bound's own rounding.)
-    /// * along the normal n, what |n|·δ lacks of the largest of |n·(v_i − p)| + 8u·|n|·|v_i − p| (4u for
-    ///   its own rounding, 4u for a normal that is rounded again, by a normalisation) and of the
-    ///   distance by which the watertight kernel may be wrong.
-    ///
-    /// The latter is at most 24u·E + 9u·l₀·l₁·l₂/N, E the largest component of the vertices as seen from
-    /// the ray's origin, l their lengths, N the length of n. That kernel sees each vertex moved across the
-    /// ray by 6u·E on two axes, and a unit normal has at most √2 on two axes. Five roundings from
-    /// the edge functions to t add 5u·E over the direction's largest component, which has at least 1/√3 of
-    /// its length. And the rounded products of an edge function are together at most 3·l_j·l_k (the shear
-    /// lengthens each by √3 at most), times the depth of the third vertex; there are three. More than 4·E
-    /// is never needed: from there the whole triangle is behind the ray.
+    /// * along the normal n, what |n|·δ lacks of the largest of |n·(v_i − p)| + 8u·|n|·|v_i − p|: 4u for
+    ///   its own rounding, 4u for a normal that is rounded again, by a normalisation.
     ///
     /// So a triangle as good as flat, of which the normal is all rounding, gets a large error, and one
     /// whose normal over- or underflows an error that covers the whole of it. Where an edge is beyond the
     /// largest float the error is infinite.
     ///
-    /// **How large:** [`offset_origin`] moves p by 1.3 ulps of the vertices' largest coordinate, at most 4,
-    /// where the triangle is a hundredth as large as its distance from zero; by 2.6, at most 16, where it
-    /// is a tenth; by 11, at most 32, where it is as large: medians, for triangles not narrower than 1
-    /// to 8. An eighth of the error would be too little.
+    /// **How large:** [`offset_origin`] moves p by 1.4 ulps of the vertices' largest coordinate, at most 4,
+    /// where the triangle is a tenth as large as its distance from zero, or smaller; by 2.7, at most 8,
+    /// where it is as large: medians, for triangles not narrower than 1 to 8. A sixteenth of the error would
+    /// be too little.
     ///
     /// For a hit on another triangle the result means nothing.
     ///
@@ -114,34 +104,17 @@ impl<T: Scalar> TriangleHit<T> {
             + V::splat(underflow());
 
         let vertices = [v0 - point, v1 - point, v2 - point];
-        let extent = vertices[0].abs().max(vertices[1].abs()).max(vertices[2].abs());
-        // The origin will be off the point: by the rounding of both, and by less than a sixteenth of the
-        // triangle, unless the bound is the one that needs no such limit.
-        let slip = point.abs().max_element() * (epsilon * epsilon.lit(4.0));
-        let reach = extent.max_element() + slip;
-        let moved = reach * (epsilon * epsilon.lit(12.0));
-        let normal = triangle.normal();
-        let Some(unit) = normalized(normal) else {
-            return (point, (extent + V::splat(moved)) * margin::<T>() + evaluation);
+        let Some(unit) = normalized(triangle.normal()) else {
+            let extent = vertices[0].abs().max(vertices[1].abs()).max(vertices[2].abs());
+            return (point, extent * margin::<T>() + evaluation);
         };
         let unit2 = unit.dot(unit);
-        let length = unit2.sqrt();
         let distance = |vertex: V| {
             let rounding = unit.abs().dot(vertex.abs()) * (epsilon * epsilon.lit(4.0));
             unit.dot(vertex).abs() + rounding
         };
         let farthest = vertices.map(distance).into_iter().fold(T::ZERO, Number::max);
-        let sixteenth = reach * epsilon.lit(1.0 / 16.0);
-        let [a, b, c] = vertices.map(|vertex| vertex.length() + slip + sixteenth);
-        let weights = a / normal.length() * b * c * (epsilon * epsilon.lit(4.5));
-        let kernel = moved + weights;
-        let kernel = if kernel * length + farthest < sixteenth * length {
-            kernel
-        } else {
-            reach * epsilon.lit(4.0)
-        };
-
-        let spread = (farthest + kernel * length + underflow()) * margin::<T>();
+        let spread = (farthest + underflow()) * margin::<T>();
         let missing = (spread - unit.abs().dot(evaluation)).max(T::ZERO);
         (point, evaluation + unit.abs() * (missing / unit2 * margin::<T>()))
     }
@@ -154,15 +127,13 @@ impl<T: Scalar> SphereHit<T> {
     /// What remains is the rounding of p, and that can be computed. With m = p − c and u = EPSILON/2,
     /// the sphere's nearest point is off by ||m| − r| along m, and the error is
     ///
-    /// δ = (|r − |m|| + 10u·r + 16u²·P²/r)·|m_i|/|m|, P the largest component of p.
+    /// δ = (|r − |m|| + 4u·r + 16u²·P²/r)·|m_i|/|m|, P the largest component of p.
     ///
-    /// 10u·r: the computed |m| is off by 3.5u·r, and the robust kernel cannot tell a distance from
-    /// the centre from r within 5u·r. The last term is for rays to the inside: rounding moves their
-    /// origin by up to 5.2u·P across m, which takes it (5.2u·P)²/2r outward.
+    /// 4u·r: the computed |m| is off by 3.5u·r. The last term is for rays to the inside: rounding moves
+    /// their origin by up to 5.2u·P across m, which takes it (5.2u·P)²/2r outward.
     ///
     /// A sphere that floats cannot tell from a point (r < 32u·P, or a subnormal r) gets an error that
-    /// covers the whole of it: a ray to the inside starts behind it. An eighth of the error would be too
-    /// little.
+    /// covers the whole of it: a ray to the inside starts behind it. An eighth of the error would be too little.
     ///
     /// For a hit on another sphere the result means nothing.
     ///
@@ -198,7 +169,7 @@ impl<T: Scalar> SphereHit<T> {
             (arm.abs() + V::splat(radius)) * (T::ONE + epsilon.lit(16.0) * epsilon)
         } else {
             let depth = (radius - length).abs()
-                + radius * (epsilon * epsilon.lit(5.0))
+                + radius * (epsilon * epsilon.lit(2.0))
                 + rounding * (rounding / radius);
             arm.abs() * (depth / length * margin::<T>())
         };
@@ -251,10 +222,9 @@ impl<T: Scalar> PlaneHit<T> {
     /// What remains can be computed. With s = n·p − offset, B = Σ|n_i·p_i| + |offset| and u = EPSILON/2,
     /// the plane's nearest point is off by |s|/|n| along the normal, and the error is
     ///
-    /// δ = (|s| + 10u·B)·|n_i|/n²
+    /// δ = (|s| + 5u·B)·|n_i|/n²
     ///
-    /// s is off by at most 4u·B, and so is what the plane's kernel has in its place. A sixteenth of the
-    /// error would be too little.
+    /// s is off by at most 4u·B. A sixteenth of the error would be too little.
     ///
     /// A point beyond the largest float is infinite, or has an infinite error. For a hit on another plane
     /// the result means nothing.
@@ -289,10 +259,8 @@ impl<T: Scalar> PlaneHit<T> {
             return Some((unprojected, V::INFINITY));
         }
         let magnitude = unit.abs().dot(point.abs()) + offset.abs();
-        // The kernel's products are not scaled: one with a small normal may underflow.
-        let distance = above(point).abs()
-            + magnitude * (T::EPSILON * offset.lit(5.0))
-            + underflow::<T>() * scale;
+        let distance =
+            above(point).abs() + magnitude * (T::EPSILON * offset.lit(2.5)) + underflow();
         let error = unit.abs() * (distance / unit2 * margin::<T>()) + V::splat(underflow());
         Some((point, error))
     }
@@ -361,10 +329,9 @@ pub fn offset_origin<V: Vector>(point: V, error: V, normal: V, direction: V) -> 
 ///
 /// Each end is moved off its surface by [`offset_origin`], to the side on which the other end is. The
 /// range is closed, so the far end has to clear b's surface by more than b's error: by the
-/// rounding of the direction d, u·|d| with u = EPSILON/2, and by what the kernels may be wrong at that
-/// distance, up to 28u·L, L the direction's largest component. (The watertight kernel's 24u·L is derived
-/// at [`TriangleHit::point_and_error`]; the robust one's is 16u·|d|, |d| ≤ √3·L.) So 32u·L are added to
-/// b's error.
+/// rounding of the direction d, u·L in each component with u = EPSILON/2, L the largest. And two surfaces
+/// that are flat together are so but for the rounding of their vertices. 8u·L are added to the error of
+/// either end.
 ///
 /// Where each point is in the plane of the other's surface, up to their errors, both ends come to the same
 /// side of it. Where only one is, as at the seam of a wall and a floor, the segment may hit the surface
@@ -385,11 +352,12 @@ pub fn offset_origin<V: Vector>(point: V, error: V, normal: V, direction: V) -> 
 /// ```
 #[must_use]
 pub fn segment<V: Vector>(a: V, a_error: V, a_normal: V, b: V, b_error: V, b_normal: V) -> Ray<V> {
-    let from = offset_origin(a, a_error, a_normal, b - a);
+    let slack =
+        |way: V| V::splat(way.abs().max_element() * (V::Scalar::EPSILON * V::Scalar::ONE.lit(4.0)));
+    let from = offset_origin(a, a_error + slack(b - a), a_normal, b - a);
     // Seen from there, not from a: over flat ground the sides may differ.
     let back = from - b;
-    let way = back.abs().max_element() * (V::Scalar::EPSILON * V::Scalar::ONE.lit(16.0));
-    let to = offset_origin(b, b_error + V::splat(way), b_normal, back);
+    let to = offset_origin(b, b_error + slack(back), b_normal, back);
     Ray::segment(from, to)
 }
 

@@ -554,10 +554,9 @@ fn every_capacity_holds_the_largest_numbers_that_it_admits() {
             let outcomes = [
                 (exact::hits(&ray, &triangle), oracle::triangle(&case, v).hits()),
                 (box_exact::hits(&BoxRay::new(&ray), &aabb), oracle::aabb(&case, min, max)),
-                (sphere_exact::hits(&ray, &sphere(&a, radius)), oracle::sphere(&case, a, radius)),
+                (ray.hits(&sphere_of::<DVec3>(&a, radius)), oracle::sphere(&case, a, radius)),
                 (
-                    plane_exact::classify(&ray, &Plane { normal: vector(b), offset: radius })
-                        .is_some(),
+                    ray.hits(&Plane::<DVec3> { normal: vector(b), offset: radius }),
                     oracle::plane(&case, b, radius) != oracle::PlaneVerdict::Miss,
                 ),
                 (overlap_exact::overlaps(&triangle, &aabb), oracle::triangle_aabb_sat(v, min, max)),

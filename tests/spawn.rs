@@ -276,13 +276,7 @@ fn leave_plane<V: Vector>(rng: &mut fastrand::Rng, tally: &mut Tally, share: f64
             let leaving = departure(rng, normal);
             let origin = spawn::offset_origin(point, error * scalar(share), normal, leaving);
             let ray = Ray::new(origin, leaving);
-            // The kernel cannot tell the side of a direction within the rounding of three products and two sums.
-            let products = array(normal.scaled(leaving));
-            let certain = products.iter().sum::<f64>().abs()
-                > 4.0
-                    * unit_roundoff::<V::Scalar>()
-                    * products.iter().map(|x| x.abs()).sum::<f64>();
-            tally.count(certain && ray.hits(&plane), || {
+            tally.count(ray.hits(&plane), || {
                 oracle::plane(&oracle_ray(&ray), array(normal), plane.offset.into())
                     != oracle::PlaneVerdict::Miss
             });
@@ -333,7 +327,7 @@ fn no_ray_hits_what_it_leaves_at_full_scale() {
 fn a_fraction_of_the_error_is_not_enough() {
     fn check<V: Vector>() {
         let campaigns: [(&str, Campaign, f64); 3] = [
-            ("triangles", leave_triangle::<V>, 8.0),
+            ("triangles", leave_triangle::<V>, 16.0),
             ("spheres", leave_sphere::<V>, 8.0),
             ("planes", leave_plane::<V>, 16.0),
         ];
@@ -351,7 +345,7 @@ fn a_fraction_of_the_error_is_not_enough() {
 fn offsets_are_a_few_ulps() {
     fn check<V: Vector>() {
         let mut rng = fastrand::Rng::with_seed(SEED + 1);
-        for (size, median, most) in [(1.0, 12.0, 32.0), (0.1, 3.0, 16.0), (0.01, 2.0, 4.0)] {
+        for (size, median, most) in [(1.0, 3.0, 8.0), (0.1, 2.0, 4.0), (0.01, 2.0, 4.0)] {
             let mut offsets = Vec::new();
             while offsets.len() < 2_000 {
                 let [center, origin, x, y, z] = [(); 5].map(|()| uniform(&mut rng));
@@ -570,7 +564,7 @@ impl<V: Vector> Shape<V> {
         match self {
             Self::Triangle(shape) => ray.hits(shape),
             Self::Sphere(shape) => ray.hits(shape),
-            Self::Box(shape) => ray.hits(shape) || conservative::hits(&BoxRay::new(ray), shape),
+            Self::Box(shape) => ray.hits(shape),
             Self::Plane(shape) => ray.hits(shape),
         }
     }

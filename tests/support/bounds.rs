@@ -68,19 +68,35 @@ fn with_margin(t: f64, weights: [f64; 3]) -> Bound {
 
 /// 10u·(P(num) + |value|·P(det)) / |det| for each of t, u and v; the weight of v0 is 1 − u − v.
 pub fn moller_trumbore(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Option<Bound> {
+    determinants(unit, [10.0, 10.0], ray, triangle)
+}
+
+/// 8u for u and v, 9u for t, of the same.
+pub fn exact(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Option<Bound> {
+    determinants(unit, [8.0, 9.0], ray, triangle)
+}
+
+/// The roundings of a weight and of t, times u·(P(num) + |value|·P(det)) / |det|.
+fn determinants(
+    unit: f64,
+    [of_weight, of_t]: [f64; 2],
+    ray: &super::oracle::Ray,
+    triangle: &[Vec3; 3],
+) -> Option<Bound> {
     let [v0, v1, v2] = triangle;
     let (e1, e2, s, d) = (sub(v1, v0), sub(v2, v0), sub(&ray.origin, v0), ray.direction);
     let det = dot(&e1, &cross(&d, &e2)).abs();
     let p_det = permanent(&e1, &d, &e2);
-    if 10.0 * unit * p_det > det / 16.0 {
+    if det == 0.0 || 10.0 * unit * p_det > det / 16.0 {
         return None;
     }
-    let bound =
-        |p_numerator: f64, value: f64| 10.0 * unit * (p_numerator + value.abs() * p_det) / det;
+    let bound = |roundings: f64, p_numerator: f64, value: f64| {
+        roundings * unit * (p_numerator + value.abs() * p_det) / det
+    };
     let t = dot(&e2, &cross(&s, &e1)) / det;
-    let u = bound(permanent(&s, &d, &e2), dot(&e2, &cross(&s, &d)) / det);
-    let v = bound(permanent(&s, &d, &e1), dot(&e1, &cross(&s, &d)) / det);
-    Some(with_margin(bound(permanent(&e2, &s, &e1), t), [u + v + 4.0 * unit, u, v]))
+    let u = bound(of_weight, permanent(&s, &d, &e2), dot(&e2, &cross(&s, &d)) / det);
+    let v = bound(of_weight, permanent(&s, &d, &e1), dot(&e1, &cross(&s, &d)) / det);
+    Some(with_margin(bound(of_t, permanent(&e2, &s, &e1), t), [u + v + 4.0 * unit, u, v]))
 }
 
 /// The plane's t, then the errors of p − v0 and of the two projections.

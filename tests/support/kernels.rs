@@ -1,10 +1,10 @@
 //! The algorithms of each pair: a new one is one line here, and every suite runs over it.
 
 use isect::overlap::triangle_aabb::{clip, exact as overlap_exact, sat};
-use isect::ray::aabb::{BoxRay, conservative, exact, slab};
+use isect::ray::aabb::{BoxRay, conservative, exact as box_exact, slab};
 use isect::ray::sphere::{self, SphereHit};
 use isect::ray::triangle::watertight::{self, ShearedRay};
-use isect::ray::triangle::{TriangleHit, badouel, moller_trumbore, segura};
+use isect::ray::triangle::{TriangleHit, badouel, exact, moller_trumbore, segura};
 use isect::{Aabb, Ray, Sphere, Triangle, Vector};
 
 use super::bounds::{self, BoundOf};
@@ -20,7 +20,7 @@ pub struct TriangleKernel<V: Vector> {
     pub bound: BoundOf,
 }
 
-pub fn triangle_kernels<V: Vector>() -> [TriangleKernel<V>; 4] {
+pub fn triangle_kernels<V: Vector>() -> [TriangleKernel<V>; 5] {
     [
         TriangleKernel {
             name: "moller_trumbore",
@@ -34,6 +34,7 @@ pub fn triangle_kernels<V: Vector>() -> [TriangleKernel<V>; 4] {
             intersect: |ray, triangle| watertight::intersect(&ShearedRay::new(ray), triangle),
             bound: bounds::watertight,
         },
+        TriangleKernel { name: "exact", intersect: exact::intersect, bound: bounds::exact },
     ]
 }
 
@@ -75,7 +76,7 @@ pub fn box_kernels<V: Vector>() -> [(&'static str, BoxKernel<V>); 5] {
         ("slab::intersect", |ray, aabb| slab::intersect(ray, aabb).is_some()),
         ("conservative::hits", conservative::hits),
         ("conservative::interval", |ray, aabb| conservative::interval(ray, aabb).is_some()),
-        ("exact::hits", exact::hits),
+        ("exact::hits", box_exact::hits),
     ]
 }
 
