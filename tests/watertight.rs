@@ -30,18 +30,12 @@ struct Target<V: Vector> {
 impl<V: Vector> Target<V> {
     fn new(name: &'static str, mesh: &Mesh, inside: &[[f64; 3]]) -> Self {
         assert!(mesh.is_closed(), "{name}");
-        let mut around = vec![Vec::new(); mesh.vertices.len()];
-        for (index, face) in mesh.faces.iter().enumerate() {
-            for &vertex in face {
-                around[vertex as usize].push(index);
-            }
-        }
         Self {
             name,
             triangles: mesh.triangles().map(|t| t.map(vector).into()).collect(),
             vertices: mesh.vertices.iter().map(|&p| vector(p)).collect(),
             edges: mesh.edges().iter().map(|e| e.map(|v| v as usize)).collect(),
-            around,
+            around: mesh.around(),
             inside: inside.iter().map(|&p| vector(p)).collect(),
         }
     }
@@ -112,15 +106,10 @@ fn meshes() -> Vec<(&'static str, Mesh, Vec<[f64; 3]>)> {
         // Away from the origin, where coordinates have few bits left for the shape.
         (
             "far cube",
-            moved(&lattice_cube(8), 1e6),
+            lattice_cube(8).moved([1e6; 3]),
             lattice.iter().map(|p| p.map(|x| x + 1e6)).collect(),
         ),
     ]
-}
-
-fn moved(mesh: &Mesh, by: f64) -> Mesh {
-    let vertices = mesh.vertices.iter().map(|v| v.map(|x| x + by)).collect();
-    Mesh { vertices, faces: mesh.faces.clone() }
 }
 
 fn check<V: Vector>(meshes: &[(&'static str, Mesh, Vec<[f64; 3]>)]) {

@@ -1,4 +1,4 @@
-//! Closed triangle meshes for watertightness tests.
+//! Triangle meshes for watertightness tests: closed, but for one with a square for its rim.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -31,6 +31,25 @@ impl Mesh {
         !edges.is_empty()
             && edges.len() == 3 * self.faces.len()
             && edges.iter().all(|&[a, b]| a != b && edges.contains(&[b, a]))
+    }
+
+    /// By vertex, the indices of the faces around it.
+    #[must_use]
+    pub fn around(&self) -> Vec<Vec<usize>> {
+        let mut around = vec![Vec::new(); self.vertices.len()];
+        for (index, face) in self.faces.iter().enumerate() {
+            for &vertex in face {
+                around[vertex as usize].push(index);
+            }
+        }
+        around
+    }
+
+    /// The same faces elsewhere, the vertices rounded to single precision there.
+    #[must_use]
+    pub fn moved(&self, by: [f64; 3]) -> Self {
+        let vertices = self.vertices.iter().map(|v| std::array::from_fn(|k| single(v[k] + by[k])));
+        Self { vertices: vertices.collect(), faces: self.faces.clone() }
     }
 
     fn directed_edges(&self) -> impl Iterator<Item = [u32; 2]> {
@@ -134,6 +153,61 @@ pub fn lattice_cube(n: u32) -> Mesh {
     mesh
 }
 
+/// A sphere about the origin, cut by meridians into `segments` and by parallels into `rings`; the vertices of the n-th
+/// parallel, of which the poles are the first and the last, are `radius(n)` away from the centre. In order: the north pole
+/// on +z, the parallels eastward from +x, the south pole.
+#[must_use]
+pub fn uv_sphere(rings: u32, segments: u32, mut radius: impl FnMut(u32) -> f64) -> Mesh {
+    let mut mesh = Mesh::default();
+    for ring in 0..=rings {
+        let polar = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
+        let is_pole = ring == 0 || ring == rings;
+        for segment in 0..if is_pole { 1 } else { segments } {
+            let azimuth = std::f64::consts::TAU * f64::from(segment) / f64::from(segments);
+            // (At the south pole the computed sine is not zero.)
+            let across = if is_pole { 0.0 } else { polar.sin() };
+            let unit = [across * azimuth.cos(), across * azimuth.sin(), polar.cos()];
+            let radius = radius(ring);
+            mesh.vertices.push(unit.map(|x| single(radius * x)));
+        }
+    }
+    let south = mesh.next_index() - 1;
+    let vertex = |ring: u32, segment: u32| 1 + (ring - 1) * segments + segment % segments;
+    for segment in 0..segments {
+        let (west, east) = (segment, segment + 1);
+        mesh.faces.push([0, vertex(1, west), vertex(1, east)]);
+        for (upper, lower) in (1..rings - 1).map(|ring| (ring, ring + 1)) {
+            let corners = [(upper, west), (lower, west), (lower, east), (upper, east)];
+            let [a, b, c, d] = corners.map(|(ring, segment)| vertex(ring, segment));
+            mesh.faces.extend([[a, b, c], [a, c, d]]);
+        }
+        mesh.faces.push([south, vertex(rings - 1, east), vertex(rings - 1, west)]);
+    }
+    mesh
+}
+
+/// A landscape over the unit square: its rim lies at z = −1, and one random triangle after the other is split in three at
+/// a random point of random height in [−0.99, −0.01], until there are `count`, an even number. Seen from above, rounding
+/// may fold it; still any way down through the square crosses it.
+#[must_use]
+pub fn landscape(rng: &mut fastrand::Rng, count: usize) -> Mesh {
+    let corners = [[0.0, 0.0, -1.0], [1.0, 0.0, -1.0], [1.0, 1.0, -1.0], [0.0, 1.0, -1.0]];
+    let mut mesh = Mesh { vertices: corners.to_vec(), faces: vec![[0, 1, 3], [2, 3, 1]] };
+    while mesh.faces.len() < count {
+        let face = rng.usize(..mesh.faces.len());
+        let [a, b, c] = mesh.faces[face];
+        let [p, q, r] = [a, b, c].map(|k| mesh.vertices[k as usize]);
+        let [along, across, depth] = [(); 3].map(|()| 0.01 + 0.98 * rng.f64());
+        let weights = [(1.0 - along) * (1.0 - across), along * (1.0 - across), across];
+        let [x, y] = [0, 1].map(|k| weights[0] * p[k] + weights[1] * q[k] + weights[2] * r[k]);
+        let top = mesh.next_index();
+        mesh.vertices.push([x, y, -depth].map(single));
+        mesh.faces[face] = [a, b, top];
+        mesh.faces.extend([[b, c, top], [c, a, top]]);
+    }
+    mesh
+}
+
 /// The `v` and `f` lines of a Wavefront OBJ text; faces are triangles, coordinates are rounded to single precision.
 ///
 /// # Panics
@@ -213,6 +287,46 @@ mod tests {
             assert_eq!(mesh.faces.len(), 12 * n as usize * n as usize);
             assert_is_solid(&mesh);
             assert_eq!(volume(&mesh), 6.0 * f64::from(n).powi(3));
+        }
+    }
+
+    #[test]
+    fn a_uv_sphere_is_closed_and_looks_outward() {
+        for (rings, segments) in [(2, 3), (3, 4), (15, 15), (40, 80)] {
+            let mesh = uv_sphere(rings, segments, |_| 2.0);
+            assert_eq!(mesh.faces.len(), 2 * segments as usize * (rings as usize - 1));
+            assert_is_solid(&mesh);
+            for triangle in mesh.triangles() {
+                assert!(
+                    volume(&Mesh { vertices: triangle.to_vec(), faces: vec![[0, 1, 2]] }) > 0.0
+                );
+            }
+        }
+        let sphere = 64.0 * std::f64::consts::PI;
+        assert!((0.99 * sphere..sphere).contains(&volume(&uv_sphere(40, 80, |_| 2.0))));
+    }
+
+    /// With a floor it is closed.
+    #[test]
+    fn a_landscape_rises_from_a_square() {
+        for count in [2, 4, 16, 1024] {
+            let mut mesh = landscape(&mut fastrand::Rng::with_seed(1), count);
+            assert_eq!((mesh.faces.len(), mesh.vertices.len()), (count, count / 2 + 3));
+            assert!(mesh.vertices[4..].iter().all(|v| (-0.99..=-0.01).contains(&v[2])));
+            // Of the other diagonal.
+            mesh.faces.extend([[0, 2, 1], [0, 3, 2]]);
+            assert_is_solid(&mesh);
+            assert!(volume(&mesh) > 0.0 || count == 2);
+        }
+    }
+
+    #[test]
+    fn faces_around_vertices() {
+        let mesh = lattice_cube(1);
+        let around = mesh.around();
+        assert_eq!(around.iter().map(Vec::len).sum::<usize>(), 36);
+        for (vertex, faces) in around.iter().enumerate() {
+            assert!(faces.iter().all(|&k| mesh.faces[k].iter().any(|&v| v as usize == vertex)));
         }
     }
 
