@@ -10,6 +10,7 @@ mod bad_input;
 mod bounds;
 mod conservative;
 mod exact;
+mod hard_suites;
 mod metamorphic;
 mod obvhs;
 mod overlap;
