@@ -637,8 +637,9 @@ fn pbrt_bad_case() {
     for_every_vector!(check);
 }
 
-/// Why the watertight kernel may hit the bad case: to it the points of a line are none, after rounding, and where a
-/// vertex lies on the edge of a neighbour without it only the triangle between closes the seam.
+/// Why the watertight kernel may hit the bad case: after rounding, three points of a line are on a line no more as it sees
+/// them, and where a vertex lies on the edge of a neighbour without it, only the triangle between them closes the seam.
+/// (With triangles without area ruled out it also loses rays in the far one of the nine cells' spheres.)
 #[test]
 fn a_collinear_triangle_closes_a_seam() {
     fn check<V: Vector>() {
