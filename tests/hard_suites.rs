@@ -13,12 +13,12 @@ use std::array::from_fn;
 use std::ops::RangeInclusive;
 
 use isect::glam::Vec3A;
-use isect::ray::aabb::{BoxRay, exact as box_exact};
-use isect::ray::triangle::{TriangleHit, exact};
+use isect::ray::aabb::BoxRay;
+use isect::ray::triangle::TriangleHit;
 use isect::{Ray, Triangle, Vector};
 
 use crate::support::generators::single;
-use crate::support::kernels::{BoxKernel, Intersect, box_kernels, triangle_kernels};
+use crate::support::kernels::{Intersect, box_kernels, triangle_kernels};
 use crate::support::meshes::{Mesh, landscape, uv_sphere};
 use crate::support::{aabb, array, for_every_vector, name, oracle, ray, scalar, triangle, vector};
 
@@ -30,12 +30,11 @@ struct Kernel<V: Vector> {
 }
 
 fn kernels<V: Vector>() -> [Kernel<V>; 5] {
-    let [a, b, c, d] = triangle_kernels().map(|kernel| Kernel {
+    triangle_kernels().map(|kernel| Kernel {
         name: kernel.name,
         intersect: kernel.intersect,
-        is_leakproof: kernel.name == "watertight",
-    });
-    [a, b, c, d, Kernel { name: "exact", intersect: exact::intersect, is_leakproof: true }]
+        is_leakproof: matches!(kernel.name, "watertight" | "exact"),
+    })
 }
 
 impl<V: Vector> Kernel<V> {
@@ -538,19 +537,13 @@ impl BoxCase {
     }
 }
 
-fn all_box_kernels<V: Vector>() -> [(&'static str, BoxKernel<V>); 6] {
-    let [a, b, c, d] = box_kernels();
-    let intersects = |ray: &_, aabb: &_| box_exact::intersect(ray, aabb).is_some();
-    [a, b, c, d, ("exact::hits", box_exact::hits), ("exact::intersect", intersects)]
-}
-
 /// The first part of a kernel's name tells its grade: this one may miss a box that the ray touches.
 fn may_miss(kernel: &str) -> bool {
     kernel.starts_with("slab")
 }
 
 fn cgal<V: Vector>(cases: &[BoxCase]) {
-    let kernels = all_box_kernels::<V>();
+    let kernels = box_kernels::<V>();
     let mut wrong = kernels.map(|_| [0, 0]);
     let (mut checks, mut touches) = (0, 0);
     for case in cases {
