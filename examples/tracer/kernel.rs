@@ -5,7 +5,7 @@
 use isect::glam::Vec3A;
 use isect::ray::triangle::badouel::Prepared;
 use isect::ray::triangle::watertight::ShearedRay;
-use isect::ray::triangle::{TriangleHit, moller_trumbore, segura, watertight};
+use isect::ray::triangle::{TriangleHit, exact, moller_trumbore, segura, watertight};
 use isect::{Ray, Triangle};
 
 /// A ray/triangle kernel with what it prepares: once per triangle, and once per ray.
@@ -15,14 +15,18 @@ pub(crate) trait TriangleKernel {
     /// A ray as the kernel wants it.
     type Ray;
 
+    /// By how many roundings of their distance from the ray's origin it may see vertices moved: boxes of
+    /// a hierarchy have to be wider by as much.
+    const ROUNDINGS: f32 = 10.0;
+
     /// Prepares a triangle, once per scene.
     fn triangle(triangle: &Triangle<Vec3A>) -> Self::Triangle;
 
     /// Prepares a ray, once per traversal.
     fn ray(ray: &Ray<Vec3A>) -> Self::Ray;
 
-    /// Lowers the end of the ray's range to the closest hit so far.
-    fn shorten(ray: &mut Self::Ray, t_max: f32);
+    /// Lowers the end of the ray's range to the closest hit so far, so that one as close is still found.
+    fn shorten(ray: &mut Self::Ray, t: f32);
 
     /// Where the ray meets the triangle.
     fn intersect(ray: &Self::Ray, triangle: &Self::Triangle) -> Option<TriangleHit<f32>>;
@@ -30,6 +34,68 @@ pub(crate) trait TriangleKernel {
     /// Whether it does.
     fn hits(ray: &Self::Ray, triangle: &Self::Triangle) -> bool {
         Self::intersect(ray, triangle).is_some()
+    }
+}
+
+/// A kernel that prepares nothing.
+trait Plain {
+    const ROUNDINGS: f32;
+
+    fn shortened(t: f32) -> f32 {
+        t
+    }
+
+    fn intersect(ray: &Ray<Vec3A>, triangle: &Triangle<Vec3A>) -> Option<TriangleHit<f32>>;
+
+    fn hits(ray: &Ray<Vec3A>, triangle: &Triangle<Vec3A>) -> bool {
+        Self::intersect(ray, triangle).is_some()
+    }
+}
+
+impl<K: Plain> TriangleKernel for K {
+    type Triangle = Triangle<Vec3A>;
+    type Ray = Ray<Vec3A>;
+
+    const ROUNDINGS: f32 = <Self as Plain>::ROUNDINGS;
+
+    fn triangle(triangle: &Triangle<Vec3A>) -> Self::Triangle {
+        *triangle
+    }
+
+    fn ray(ray: &Ray<Vec3A>) -> Self::Ray {
+        *ray
+    }
+
+    fn shorten(ray: &mut Self::Ray, t: f32) {
+        ray.t_max = Self::shortened(t);
+    }
+
+    fn intersect(ray: &Self::Ray, triangle: &Self::Triangle) -> Option<TriangleHit<f32>> {
+        <Self as Plain>::intersect(ray, triangle)
+    }
+
+    fn hits(ray: &Self::Ray, triangle: &Self::Triangle) -> bool {
+        <Self as Plain>::hits(ray, triangle)
+    }
+}
+
+/// Never wrong, and t, u, v to the last digit.
+pub(crate) struct Exact;
+
+impl Plain for Exact {
+    const ROUNDINGS: f32 = 0.0;
+
+    /// The kernel compares the exact t, which the rounded one may be below.
+    fn shortened(t: f32) -> f32 {
+        t.next_up()
+    }
+
+    fn intersect(ray: &Ray<Vec3A>, triangle: &Triangle<Vec3A>) -> Option<TriangleHit<f32>> {
+        exact::hits(ray, triangle).then(|| exact::refine(ray, triangle))
+    }
+
+    fn hits(ray: &Ray<Vec3A>, triangle: &Triangle<Vec3A>) -> bool {
+        exact::hits(ray, triangle)
     }
 }
 
@@ -48,8 +114,8 @@ impl TriangleKernel for Watertight {
         ShearedRay::new(ray)
     }
 
-    fn shorten(ray: &mut Self::Ray, t_max: f32) {
-        ray.t_max = t_max;
+    fn shorten(ray: &mut Self::Ray, t: f32) {
+        ray.t_max = t;
     }
 
     fn intersect(ray: &Self::Ray, triangle: &Self::Triangle) -> Option<TriangleHit<f32>> {
@@ -57,26 +123,13 @@ impl TriangleKernel for Watertight {
     }
 }
 
-/// Nothing is prepared.
+/// As fast as it gets, but for a ray lost now and then.
 pub(crate) struct MollerTrumbore;
 
-impl TriangleKernel for MollerTrumbore {
-    type Triangle = Triangle<Vec3A>;
-    type Ray = Ray<Vec3A>;
+impl Plain for MollerTrumbore {
+    const ROUNDINGS: f32 = 10.0;
 
-    fn triangle(triangle: &Triangle<Vec3A>) -> Self::Triangle {
-        *triangle
-    }
-
-    fn ray(ray: &Ray<Vec3A>) -> Self::Ray {
-        *ray
-    }
-
-    fn shorten(ray: &mut Self::Ray, t_max: f32) {
-        ray.t_max = t_max;
-    }
-
-    fn intersect(ray: &Self::Ray, triangle: &Self::Triangle) -> Option<TriangleHit<f32>> {
+    fn intersect(ray: &Ray<Vec3A>, triangle: &Triangle<Vec3A>) -> Option<TriangleHit<f32>> {
         moller_trumbore::intersect(ray, triangle)
     }
 }
@@ -96,8 +149,8 @@ impl TriangleKernel for Badouel {
         *ray
     }
 
-    fn shorten(ray: &mut Self::Ray, t_max: f32) {
-        ray.t_max = t_max;
+    fn shorten(ray: &mut Self::Ray, t: f32) {
+        ray.t_max = t;
     }
 
     fn intersect(ray: &Self::Ray, triangle: &Self::Triangle) -> Option<TriangleHit<f32>> {
@@ -108,27 +161,14 @@ impl TriangleKernel for Badouel {
 /// Shadow rays need no division.
 pub(crate) struct Segura;
 
-impl TriangleKernel for Segura {
-    type Triangle = Triangle<Vec3A>;
-    type Ray = Ray<Vec3A>;
+impl Plain for Segura {
+    const ROUNDINGS: f32 = 10.0;
 
-    fn triangle(triangle: &Triangle<Vec3A>) -> Self::Triangle {
-        *triangle
-    }
-
-    fn ray(ray: &Ray<Vec3A>) -> Self::Ray {
-        *ray
-    }
-
-    fn shorten(ray: &mut Self::Ray, t_max: f32) {
-        ray.t_max = t_max;
-    }
-
-    fn intersect(ray: &Self::Ray, triangle: &Self::Triangle) -> Option<TriangleHit<f32>> {
+    fn intersect(ray: &Ray<Vec3A>, triangle: &Triangle<Vec3A>) -> Option<TriangleHit<f32>> {
         segura::intersect(ray, triangle)
     }
 
-    fn hits(ray: &Self::Ray, triangle: &Self::Triangle) -> bool {
+    fn hits(ray: &Ray<Vec3A>, triangle: &Triangle<Vec3A>) -> bool {
         segura::detects(ray, triangle)
     }
 }

@@ -35,7 +35,7 @@ use isect::glam::Vec3A;
 use accelerator::{Accelerator, NaiveLoop};
 use bvh2::Bvh2;
 use camera::Camera;
-use kernel::{Badouel, MollerTrumbore, Segura, TriangleKernel, Watertight};
+use kernel::{Badouel, Exact, MollerTrumbore, Segura, TriangleKernel, Watertight};
 use mesh::Obj;
 use output::Output;
 use render::{Settings, render};
@@ -72,7 +72,7 @@ struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=64))]
     depth: u32,
     /// The ray/triangle kernel
-    #[arg(long, value_name = "KERNEL", value_enum, default_value = "watertight")]
+    #[arg(long, value_name = "KERNEL", value_enum, default_value = "exact")]
     triangle: KernelName,
     /// What finds the triangles that a ray may hit
     #[arg(long, value_enum, default_value = "bvh2")]
@@ -88,6 +88,8 @@ struct Arguments {
 /// The kernels to choose from.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum KernelName {
+    /// Never wrong
+    Exact,
     /// Woop, Benthin, Wald 2013: no ray slips through an edge
     Watertight,
     /// Möller, Trumbore 1997
@@ -206,6 +208,7 @@ fn accelerator(
         }
     }
     let build = match arguments.triangle {
+        KernelName::Exact => build::<Exact>,
         KernelName::Watertight => build::<Watertight>,
         KernelName::MollerTrumbore => build::<MollerTrumbore>,
         KernelName::Badouel => build::<Badouel>,
