@@ -20,35 +20,40 @@
 //!
 //! | pair | kernel | grade | prepared | paper |
 //! |---|---|---|---|---|
-//! | ray, plane | [`ray::plane`], the default | fast | | |
-//! | ray, sphere | [`ray::sphere::robust`], the default | fast, errors ∝ distance | | Haines et al. 2019 |
+//! | ray, plane | [`ray::plane`], the default | exact | | |
+//! | ray, sphere | [`ray::sphere::robust`], the default | exact; t with errors ∝ distance | | Haines et al. 2019 |
 //! | | [`ray::sphere::geometric`] | fast, errors ∝ distance² | | Glassner 1989 |
 //! | | [`ray::sphere::algebraic`] | fast, errors ∝ distance² | | Glassner 1989 |
-//! | ray, box | [`ray::aabb::slab`], the default | fast | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
+//! | ray, box | [`ray::aabb::exact`], the default | exact | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
+//! | | [`ray::aabb::slab`] | fast | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
 //! | | [`ray::aabb::conservative`] | conservative | [`ray::aabb::BoxRay`] | after Ize 2013 |
-//! | | [`ray::aabb::exact`] | exact | [`ray::aabb::BoxRay`] | |
-//! | ray, triangle | [`ray::triangle::watertight`], the default | watertight | [`ray::triangle::watertight::ShearedRay`] | Woop et al. 2013 |
+//! | ray, triangle | [`ray::triangle::exact`], the default | exact | | after Segura & Feito 1998 |
+//! | | [`ray::triangle::watertight`] | watertight | [`ray::triangle::watertight::ShearedRay`] | Woop et al. 2013 |
 //! | | [`ray::triangle::moller_trumbore`] | fast | | Möller & Trumbore 1997 |
 //! | | [`ray::triangle::badouel`] | fast | [`ray::triangle::badouel::Prepared`] | Badouel 1990 |
 //! | | [`ray::triangle::segura`] | fast, without a division | | Segura & Feito 1998 |
-//! | | [`ray::triangle::exact`] | exact | | |
-//! | triangle, box | [`overlap::triangle_aabb::sat`], the default | fast | | Akenine-Möller 2001 |
+//! | triangle, box | [`overlap::triangle_aabb::exact`], the default | exact | | Akenine-Möller 2001 |
+//! | | [`overlap::triangle_aabb::sat`] | fast | | Akenine-Möller 2001 |
 //! | | [`overlap::triangle_aabb::clip`] | fast, gives the polygon | | Sutherland & Hodgman 1974 |
-//! | | [`overlap::triangle_aabb::exact`] | exact | | Akenine-Möller 2001 |
 //!
 //! # Grades
 //!
-//! * **Fast**: t, u and v are within a stated error bound of the exact ones; near an edge, within that
-//!   bound, the verdict may be wrong, and a ray may slip between two triangles.
+//! * **Exact**: the verdict is that of exact arithmetic on the given floats, for every finite input, and at
+//!   the speed of floats: these decide wherever an error bound lets them, and integers where not. t, u and v
+//!   are within a stated error bound.
 //! * **Watertight**: no ray slips between two triangles that share an edge or a vertex.
 //!   **Conservative**: no box that the ray touches is missed.
-//! * **Exact**: the verdict is that of exact arithmetic on the given floats, for every finite input.
+//! * **Fast**: t, u and v are within a stated error bound of the exact ones; near an edge, within that
+//!   bound, the verdict may be wrong, and a ray may slip between two triangles.
 //!
 //! # Conventions
 //!
 //! * All sets are closed: a ray along a face, through an edge or at a vertex hits. So is the range of
-//!   t: a ray that starts on a surface hits it at t = 0 (see [`spawn`] and [`Ray::after`]), and with `t_max` set to
-//!   the closest t so far a later shape wins a tie (compare with `<`, or use [`Ray::before`]).
+//!   t: a ray that starts on a surface hits it at t = 0 (see [`spawn`]), and with `t_max` set to the closest t
+//!   so far a later shape may win a tie (compare with `<`, or use [`Ray::before`]).
+//! * The exact kernels compare the exact t with the ends of the range, not the rounded one that they
+//!   report: a hit may lie just outside of a range that begins or ends at its own t. The others compare
+//!   the t that they report.
 //! * Shapes have two sides. [`ray::triangle::TriangleHit::front`] tells which one; to cull, filter on it.
 //! * Directions have any length but zero, and t counts in units of it.
 //! * No tolerance is absolute: with all coordinates multiplied by a power of two every verdict is the
@@ -57,9 +62,9 @@
 //!   components that are smaller than the others by many powers of ten.
 //! * Bad input is a miss: a zero direction, an empty box, a NaN or infinite coordinate (but the bounds
 //!   of a box may be infinite), an empty range. Nothing panics, and no hit holds a NaN.
-//! * A triangle without area is missed by the ray kernels (the watertight one may still hit one that
-//!   is not flat as it sees it, so that it closes the gap between its neighbours); to
-//!   [`ray::triangle::exact`] and the kernels of [`overlap`] it is the segment or the point that it is.
+//! * A triangle without area is the segment or the point that it is to [`ray::triangle::exact`] and the
+//!   kernels of [`overlap`]. The other ray kernels miss it (the watertight one may still hit one that is not
+//!   flat as it sees it, so that it closes the gap between its neighbours).
 //!
 //! # Generic code
 //!

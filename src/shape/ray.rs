@@ -59,6 +59,9 @@ impl<V: Vector> Ray<V> {
     }
 
     /// The same ray with the range opened at its start: only hits with a t greater than `t` count.
+    ///
+    /// (The exact kernels, the defaults, compare the exact t. That of a hit is rounded, and the exact one
+    /// may be greater still: to leave a surface, see [`crate::spawn`].)
     #[inline]
     #[must_use]
     pub fn after(mut self, t: V::Scalar) -> Self {
@@ -66,7 +69,8 @@ impl<V: Vector> Ray<V> {
         self
     }
 
-    /// The same ray with the range opened at its end: only hits with a t less than `t` count.
+    /// The same ray with the range opened at its end: only hits with a t less than `t` count. (As with
+    /// [`Self::after`], the exact t is compared, where the kernel is exact.)
     #[inline]
     #[must_use]
     pub fn before(mut self, t: V::Scalar) -> Self {
