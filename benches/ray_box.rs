@@ -6,7 +6,7 @@ mod kernels;
 
 use criterion::Criterion;
 use isect::glam::{DVec3, Vec3, Vec3A};
-use isect::ray::aabb::{BoxRay, conservative, slab};
+use isect::ray::aabb::{BoxRay, conservative, exact, slab};
 use isect::{Aabb, Ray, Vector};
 
 use data::Pairs;
@@ -41,5 +41,7 @@ fn time<V: Vector>(kernels: &mut Kernels<'_>, vector: &str, pairs: &Pairs<Ray<V>
         .time(&name("slab::intersect"), &prepared, slab::intersect)
         .time(&name("conservative::hits"), &prepared, conservative::hits)
         .time(&name("conservative::interval"), &prepared, conservative::interval)
+        .time(&name("exact::hits"), &prepared, exact::hits)
+        .time(&name("exact::intersect"), &prepared, exact::intersect)
         .time(&name("Ray::intersect"), pairs, Ray::intersect::<Aabb<V>>);
 }

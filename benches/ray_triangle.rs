@@ -7,7 +7,7 @@ mod kernels;
 use criterion::Criterion;
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::ray::triangle::watertight::ShearedRay;
-use isect::ray::triangle::{badouel, moller_trumbore, segura, watertight};
+use isect::ray::triangle::{badouel, exact, moller_trumbore, segura, watertight};
 use isect::{Ray, Triangle, Vector};
 
 use data::Pairs;
@@ -47,5 +47,8 @@ fn time<V: Vector>(kernels: &mut Kernels<'_>, vector: &str, pairs: &Pairs<Ray<V>
         .time(&name("segura::intersect"), pairs, segura::intersect)
         .time(&name("segura::detects"), pairs, segura::detects)
         .time(&name("watertight::intersect"), &sheared, watertight::intersect)
-        .time(&name("Ray::intersect"), pairs, Ray::intersect::<Triangle<V>>);
+        .time(&name("exact::intersect"), pairs, exact::intersect)
+        .time(&name("exact::hits"), pairs, exact::hits)
+        .time(&name("exact::classify"), pairs, exact::classify)
+        .time(&name("exact::refine"), pairs, exact::refine);
 }

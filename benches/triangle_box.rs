@@ -6,7 +6,7 @@ mod kernels;
 
 use criterion::Criterion;
 use isect::glam::{DVec3, Vec3, Vec3A};
-use isect::overlap::triangle_aabb::{clip, sat};
+use isect::overlap::triangle_aabb::{clip, exact, sat};
 use isect::{Aabb, Triangle, Vector};
 
 use data::Pairs;
@@ -37,6 +37,7 @@ fn time<V: Vector>(kernels: &mut Kernels<'_>, vector: &str, pairs: &Pairs<Aabb<V
     let name = |kernel| format!("{kernel}, {vector}");
     kernels
         .time(&name("sat::overlaps"), pairs, |aabb, triangle| sat::overlaps(triangle, aabb))
+        .time(&name("exact::overlaps"), pairs, |aabb, triangle| exact::overlaps(triangle, aabb))
         .time(&name("clip::overlaps"), pairs, |aabb, triangle| clip::overlaps(triangle, aabb))
         .time(&name("clip::clip"), pairs, |aabb, triangle| clip::clip(triangle, aabb));
 }
