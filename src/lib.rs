@@ -76,6 +76,7 @@
 //! * `std` (default): square roots from the standard library, and `alloc`.
 //! * `alloc`: [`Intersect`] for `Box` and `Arc`.
 //! * `libm`: square roots without the standard library.
+//! * `testkit`: `isect::testkit`, the exact oracle, hard cases and a runner, to test kernels with.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -91,6 +92,8 @@ pub mod overlap;
 pub mod ray;
 mod shape;
 pub mod spawn;
+#[cfg(feature = "testkit")]
+pub mod testkit;
 mod vector;
 
 /// The examples of the README are tests.

@@ -1,10 +1,9 @@
-//! What the tests share: exact answers, hard cases, meshes, and the list of kernels to hold against them.
+//! What the tests share: the list of kernels, their error bounds, and the way from the testkit's doubles to shapes.
 
 pub mod bounds;
-pub mod generators;
 pub mod kernels;
-pub mod meshes;
-pub mod oracle;
+
+pub use isect::testkit::{generators, meshes, oracle};
 
 use isect::{Aabb, Ray, Scalar, Sphere, Triangle, Vector};
 
