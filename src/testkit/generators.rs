@@ -9,8 +9,9 @@ use super::oracle::Ray;
 
 type Point = [f64; 3];
 
-/// The nearest single-precision number.
-#[allow(clippy::cast_possible_truncation)]
+/// The nearest finite single-precision number.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is the purpose")]
+#[must_use]
 pub fn single(x: f64) -> f64 {
     f64::from((x as f32).clamp(f32::MIN, f32::MAX))
 }

@@ -49,7 +49,7 @@ impl Ray {
     }
 
     /// Whether the ray has any point.
-    fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         self.has_line() && self.has_range()
     }
 
@@ -66,13 +66,24 @@ impl Ray {
     }
 }
 
+impl<V: crate::Vector> From<&crate::Ray<V>> for Ray {
+    fn from(ray: &crate::Ray<V>) -> Self {
+        Self {
+            origin: super::shapes::array(ray.origin),
+            direction: super::shapes::array(ray.direction),
+            t_min: ray.t_min.into(),
+            t_max: ray.t_max.into(),
+        }
+    }
+}
+
 /// Whether every coordinate is finite.
-fn is_finite(points: &[[f64; 3]]) -> bool {
+pub(super) fn is_finite(points: &[[f64; 3]]) -> bool {
     points.as_flattened().iter().all(|x| x.is_finite())
 }
 
 /// Whether a box has a point; one that lies at infinity has none.
-fn is_box(min: [f64; 3], max: [f64; 3]) -> bool {
+pub(super) fn is_box(min: [f64; 3], max: [f64; 3]) -> bool {
     (0..3).all(|k| min[k] <= max[k] && min[k] < f64::INFINITY && max[k] > f64::NEG_INFINITY)
 }
 
