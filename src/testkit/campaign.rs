@@ -34,13 +34,32 @@ pub struct Campaign {
     pub cases: u64,
     /// Of the random numbers.
     pub seed: u64,
+    /// Whether every ray is a half-line, with t in [0, ∞], for kernels that take no range.
+    pub half_lines: bool,
 }
 
 impl Campaign {
     /// A campaign of so many cases.
     #[must_use]
     pub const fn new(cases: u64, seed: u64) -> Self {
-        Self { cases, seed }
+        Self { cases, seed, half_lines: false }
+    }
+
+    /// The same with half-lines for all rays.
+    #[must_use]
+    pub const fn with_half_lines(self) -> Self {
+        Self { half_lines: true, ..self }
+    }
+
+    /// The campaign in so many parts, with seeds of their own, for threads: their reports [merge](Report::merged) into one.
+    /// Of another number of parts the cases are others.
+    pub fn parts(self, count: u32) -> impl Iterator<Item = Self> {
+        let mut rng = Rng::with_seed(self.seed);
+        let whole = u64::from(count.max(1));
+        (0..whole).map(move |part| {
+            let cases = self.cases / whole + u64::from(part < self.cases % whole);
+            Self { cases, seed: rng.u64(..), ..self }
+        })
     }
 
     /// A ray against a plane; t is that of the crossing.
@@ -98,7 +117,10 @@ impl Campaign {
         let mut report = Report::new(kernel_name, name::<Q::Vector>());
         let mut rng = Rng::with_seed(self.seed);
         for index in 0..self.cases {
-            let query = query::random::<Q>(&mut rng);
+            let mut query = query::random::<Q>(&mut rng);
+            if let (true, Some(ray)) = (self.half_lines, query.ray_mut()) {
+                *ray = Ray::new(ray.origin, ray.direction);
+            }
             report.cases += 1;
             let touches = query.touches();
             let Some(fault) = judge(&query, touches, &kernel, index % 4 == 0, &mut report) else {
@@ -455,6 +477,15 @@ mod tests {
     }
 
     #[test]
+    fn half_lines_are_for_kernels_that_take_no_range() {
+        let without_range = |ray: &Ray, triangle: &Triangle| {
+            exact::hits(&Ray::new(ray.origin, ray.direction), triangle)
+        };
+        assert!(!CAMPAIGN.ray_triangle("all", without_range).is_exact());
+        assert!(CAMPAIGN.with_half_lines().ray_triangle("half", without_range).is_exact());
+    }
+
+    #[test]
     fn errors_of_t_are_measured_in_floats() {
         // By so many floats beside the nearest one.
         for ulps in [0, 1, 3, 100] {
@@ -489,6 +520,9 @@ mod tests {
         assert_eq!(whole.t_errors.measured(), a.t_errors.measured() + b.t_errors.measured());
         assert_eq!(whole.t_errors.worst, a.t_errors.worst.max(b.t_errors.worst));
         assert_eq!(whole.examples[0], a.examples[0]);
+        let parts: Vec<_> = Campaign::new(11, 7).with_half_lines().parts(3).collect();
+        assert_eq!(parts.iter().map(|part| part.cases).collect::<Vec<_>>(), [4, 4, 3]);
+        assert!(parts[0].seed != parts[1].seed && parts.iter().all(|part| part.half_lines));
     }
 
     /// What is printed is what was asked: read back, it is the same to the last bit.

@@ -15,6 +15,9 @@ pub(super) trait Query: Copy + std::fmt::Debug {
     /// A hard case, of finite numbers.
     fn random(rng: &mut Rng) -> Self;
 
+    /// The ray, if one of them is one.
+    fn ray_mut(&mut self) -> Option<&mut Ray<Self::Vector>>;
+
     /// Whether the shapes have a point in common, exactly.
     fn touches(&self) -> bool;
 
@@ -174,6 +177,10 @@ impl<V: Vector> Query for (Ray<V>, Triangle<V>) {
         (scale.ray(&ray), triangle.map(|v| scale.point::<V>(v)).into())
     }
 
+    fn ray_mut(&mut self) -> Option<&mut Ray<V>> {
+        Some(&mut self.0)
+    }
+
     fn touches(&self) -> bool {
         verdict::ray_triangle(&self.0, &self.1).hits()
     }
@@ -208,6 +215,10 @@ impl<V: Vector> Query for (Ray<V>, Aabb<V>) {
         let (ray, min, max) = generators::ray_aabb(rng);
         let scale = Scale::random::<V>(rng);
         (scale.ray(&ray), Aabb::new(scale.point(min), scale.point(max)))
+    }
+
+    fn ray_mut(&mut self) -> Option<&mut Ray<V>> {
+        Some(&mut self.0)
     }
 
     fn touches(&self) -> bool {
@@ -246,6 +257,10 @@ impl<V: Vector> Query for (Ray<V>, Sphere<V>) {
         let scale = Scale::random::<V>(rng);
         let radius = scalar(multiplied::<V>(radius, scale.points));
         (scale.ray(&ray), Sphere::new(scale.point(center), radius))
+    }
+
+    fn ray_mut(&mut self) -> Option<&mut Ray<V>> {
+        Some(&mut self.0)
     }
 
     fn touches(&self) -> bool {
@@ -298,6 +313,10 @@ impl<V: Vector> Query for (Ray<V>, Plane<V>) {
         (scale.ray(&ray), Plane { normal: vector(normal), offset })
     }
 
+    fn ray_mut(&mut self) -> Option<&mut Ray<V>> {
+        Some(&mut self.0)
+    }
+
     fn touches(&self) -> bool {
         verdict::ray_plane(&self.0, &self.1) != PlaneVerdict::Miss
     }
@@ -347,6 +366,10 @@ impl<V: Vector> Query for (Triangle<V>, Aabb<V>) {
         let scale = Scale::random::<V>(rng);
         let aabb = Aabb::new(scale.point(min), scale.point(max));
         (triangle.map(|v| scale.point::<V>(v)).into(), aabb)
+    }
+
+    fn ray_mut(&mut self) -> Option<&mut Ray<V>> {
+        None
     }
 
     fn touches(&self) -> bool {

@@ -256,6 +256,7 @@ impl Report {
             verdicts(self.bad_input_hits),
             self.nans.to_string(),
             self.panics.to_string(),
+            ulps(t.quantile(0.5)),
             ulps(t.quantile(0.99)),
             ulps(t.worst),
             loss(self.leaks.at_edges),
@@ -270,7 +271,7 @@ fn approximate(ulps: u64) -> String {
     if ulps < 100_000 { ulps.to_string() } else { format!("{:.0e}", ulps as f64) }
 }
 
-const COLUMNS: [&str; 13] = [
+const COLUMNS: [&str; 14] = [
     "kernel",
     "vector",
     "cases",
@@ -279,7 +280,8 @@ const COLUMNS: [&str; 13] = [
     "bad input hit",
     "NaN",
     "panic",
-    "t, 99 % ≤ ulps",
+    "ulps of t: 50 % ≤",
+    "99 % ≤",
     "worst",
     "leaks: edges",
     "vertices",
@@ -316,5 +318,44 @@ pub fn table(reports: &[Report]) -> String {
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(table(std::slice::from_ref(self)).trim_end())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_has_a_row_for_each_report_and_dashes_for_what_was_not_asked() {
+        let mut verdicts = Report::new("möller_trumbore", "Vec3");
+        verdicts.cases = 1000;
+        verdicts.false_misses = 7;
+        verdicts.t_errors.add(0, 0);
+        verdicts.t_errors.add(3, 3);
+        let mut leaks = Report::new("b", "DVec3");
+        leaks.leaks.at_edges = Loss { rays: 20, lost: 3 };
+        let expected = "\
+| kernel          | vector | cases | false miss | false hit | bad input hit | NaN | panic | ulps of t: 50 % ≤ | 99 % ≤ | worst | leaks: edges | vertices | elsewhere |
+|-----------------|--------|------:|-----------:|----------:|--------------:|----:|------:|------------------:|-------:|------:|-------------:|---------:|----------:|
+| möller_trumbore | Vec3   |  1000 |          7 |         0 |             0 |   0 |     0 |                 0 |      4 |     3 |            – |        – |         – |
+| b               | DVec3  |     – |          – |         – |             – |   0 |     0 |                 – |      – |     – |            3 |        – |         – |
+";
+        assert_eq!(table(&[verdicts.clone(), leaks.clone()]), expected);
+        let lines: Vec<_> = expected.lines().take(3).collect();
+        assert_eq!(verdicts.to_string(), lines.join("\n"));
+        assert!(verdicts.is_watertight() && !verdicts.is_conservative() && !verdicts.is_exact());
+        assert!(leaks.is_sound() && !leaks.is_watertight() && !leaks.is_exact());
+    }
+
+    #[test]
+    fn quantiles_are_ends_of_buckets() {
+        let mut errors = TErrors::default();
+        assert_eq!((errors.measured(), errors.quantile(0.5)), (0, 0));
+        for (bucket, error) in [(0, 0), (1, 1), (2, 2), (65, u64::MAX)] {
+            errors.add(bucket, error);
+        }
+        let quantiles = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| errors.quantile(share));
+        assert_eq!(quantiles, [0, 0, 1, 2, u64::MAX]);
+        assert_eq!((errors.worst, errors.measured()), (u64::MAX, 4));
     }
 }

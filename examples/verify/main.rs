@@ -1,0 +1,59 @@
+//! Runs every kernel of this crate, and those of obvhs, over hard cases, and holds them to what they promise.
+//!
+//! ```text
+//! cargo run --release --example verify -- --help
+//! ```
+
+mod contender;
+mod kernels;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use isect::testkit::{Campaign, table};
+
+/// Asks every kernel about hard cases and compares the answers with exact arithmetic.
+///
+/// The exit code is 1 if a kernel breaks its promise: an exact one with any wrong verdict, a conservative one that misses,
+/// a watertight one that leaks, any with a NaN in a hit, a hit of bad input, a panic. The wrong verdicts of the fast kernels
+/// and of other libraries are only reported.
+#[derive(Debug, Parser)]
+#[command(name = "verify")]
+struct Arguments {
+    /// Cases per kernel and vector type, and rays out of closed meshes
+    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    cases: u64,
+    /// Seed of the cases
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Only kernels whose name contains this
+    #[arg(long, value_name = "NAME", default_value = "")]
+    kernel: String,
+    /// Prints a case of each fault, in Rust, also where nothing was promised
+    #[arg(long)]
+    examples: bool,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let mut contenders = kernels::all();
+    contenders.retain(|contender| contender.name.contains(&arguments.kernel));
+    if contenders.is_empty() {
+        eprintln!("verify: no kernel has a name with {:?}", arguments.kernel);
+        return ExitCode::from(2);
+    }
+    let reports = contender::run(&contenders, Campaign::new(arguments.cases, arguments.seed));
+    println!("{}", table(&reports));
+    let broken = contender::broken(&contenders, &reports);
+    for (report, promise) in reports.iter().zip(contenders.iter().map(|c| c.promise)) {
+        if arguments.examples || !promise.is_kept(report) {
+            report.examples.iter().for_each(|case| println!("{case}\n"));
+        }
+    }
+    if broken.is_empty() {
+        println!("every promise is kept");
+        return ExitCode::SUCCESS;
+    }
+    println!("broken promises:\n{}", broken.join("\n"));
+    ExitCode::FAILURE
+}
