@@ -2,7 +2,8 @@
 #![no_main]
 
 use isect::glam::{DVec3, Vec3, Vec3A};
-use isect::ray::aabb::{AabbHit, BoxRay, conservative, slab};
+use isect::ray::aabb::{AabbHit, BoxRay, conservative, exact, slab};
+use isect::testkit::verdict;
 use isect::{Aabb, Ray, Scalar, Vector};
 use isect_fuzz::{FACTORS, Query, can_hit, contains, scaled_ray};
 use libfuzzer_sys::fuzz_target;
@@ -36,6 +37,7 @@ fn all<V: Vector>(ray: &Ray<V>, aabb: &Aabb<V>) -> Answers<V::Scalar> {
 fn check<V: Vector>(ray: &Ray<V>, aabb: &Aabb<V>, is_integral: bool) -> Answers<V::Scalar> {
     let zero = V::Scalar::ZERO;
     let (hit, interval) = all(ray, aabb);
+    check_exact(ray, aabb, interval.is_some());
     let can_hit = can_hit(ray) && !aabb.is_empty();
     if let Some(hit) = hit {
         assert!(can_hit, "slab: bad input was hit");
@@ -70,6 +72,19 @@ fn check<V: Vector>(ray: &Ray<V>, aabb: &Aabb<V>, is_integral: bool) -> Answers<
         }
     }
     (hit, interval)
+}
+
+/// The exact verdict is that of big integers, and the conservative one misses nothing of it.
+fn check_exact<V: Vector>(ray: &Ray<V>, aabb: &Aabb<V>, conservative: bool) {
+    let touches = verdict::ray_aabb(ray, aabb);
+    let box_ray = BoxRay::new(ray);
+    assert_eq!(exact::hits(&box_ray, aabb), touches, "exact");
+    assert!(conservative || !touches, "conservative missed");
+    let hit = exact::intersect(&box_ray, aabb);
+    assert_eq!(hit.is_some(), touches);
+    if let Some(hit) = hit {
+        assert!(ray.t_min <= hit.t_enter && hit.t_enter <= hit.t_exit && hit.t_exit <= ray.t_max);
+    }
 }
 
 /// The ends are in order and in the range, and a face is told just where the range does not clip.

@@ -2,7 +2,8 @@
 #![no_main]
 
 use isect::glam::{DVec3, Vec3, Vec3A};
-use isect::ray::plane::{self, PlaneHit};
+use isect::ray::plane::{self, PlaneHit, exact};
+use isect::testkit::{oracle::PlaneVerdict, verdict};
 use isect::{Plane, Ray, Scalar, Vector};
 use isect_fuzz::{FACTORS, Query, assert_in_range, can_hit, scaled_ray};
 use libfuzzer_sys::fuzz_target;
@@ -25,6 +26,12 @@ fn check<V: Vector>(
     plane: &Plane<V>,
     is_integral: bool,
 ) -> Option<PlaneHit<V::Scalar>> {
+    let exactly = match verdict::ray_plane(ray, plane) {
+        PlaneVerdict::Miss => None,
+        PlaneVerdict::At => Some(PlaneHit::At(())),
+        PlaneVerdict::Contained => Some(PlaneHit::Contained),
+    };
+    assert_eq!(exact::classify(ray, plane), exactly, "exact");
     let hit = plane::intersect(ray, plane);
     assert_eq!(hit, ray.intersect(plane));
     assert_eq!(hit.is_some(), ray.hits(plane));

@@ -2,7 +2,8 @@
 #![no_main]
 
 use isect::glam::{DVec3, Vec3, Vec3A};
-use isect::ray::sphere::{self, SphereHit, algebraic, geometric, robust};
+use isect::ray::sphere::{self, SphereHit, algebraic, exact, geometric, robust};
+use isect::testkit::verdict;
 use isect::{Ray, Scalar, Sphere, Vector};
 use isect_fuzz::{FACTORS, Query, assert_in_range, can_hit, scaled_ray};
 use libfuzzer_sys::fuzz_target;
@@ -34,6 +35,7 @@ fn check<V: Vector>(
     sphere: &Sphere<V>,
     is_integral: bool,
 ) -> [Option<SphereHit<V::Scalar>>; 3] {
+    assert_eq!(exact::hits(ray, sphere), verdict::ray_sphere(ray, sphere), "exact");
     let hits = all(ray, sphere);
     assert_eq!(hits[2], ray.intersect(sphere));
     assert_eq!(hits[2].is_some(), ray.hits(sphere));

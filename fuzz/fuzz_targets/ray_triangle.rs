@@ -2,8 +2,11 @@
 #![no_main]
 
 use isect::glam::{DVec3, Vec3, Vec3A};
+use isect::ray::triangle::exact::{self, Verdict};
 use isect::ray::triangle::watertight::ShearedRay;
 use isect::ray::triangle::{TriangleHit, badouel, moller_trumbore, segura, watertight};
+use isect::testkit::oracle::{self, TriangleVerdict};
+use isect::testkit::{shapes, verdict};
 use isect::{Ray, Scalar, Triangle, Vector};
 use isect_fuzz::{FACTORS, Query, assert_in_range, can_hit, is_finite, scaled_ray};
 use libfuzzer_sys::fuzz_target;
@@ -38,6 +41,7 @@ fn all<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Answers<V::Scalar> {
 }
 
 fn check<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, is_integral: bool) -> Answers<V::Scalar> {
+    check_exact(ray, triangle);
     let (hits, detected) = all(ray, triangle);
     assert_eq!(ray.hits(triangle), ray.intersect(triangle).is_some());
     let Triangle { v0, v1, v2 } = *triangle;
@@ -54,6 +58,38 @@ fn check<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, is_integral: bool) -> 
         check_integral(ray, triangle, &(hits, detected));
     }
     (hits, detected)
+}
+
+/// The exact verdict is that of big integers, and a refined hit is within an ulp.
+fn check_exact<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) {
+    let expected = verdict::ray_triangle(ray, triangle);
+    assert_eq!(exact::hits(ray, triangle), expected.hits(), "exact");
+    let hit = exact::intersect(ray, triangle);
+    assert_eq!(hit.is_some(), expected.hits());
+    if let Some(hit) = hit {
+        assert_in_range("exact", hit.t, ray);
+    }
+    let is_agreed = match exact::classify(ray, triangle) {
+        Verdict::Miss => expected == TriangleVerdict::Miss,
+        Verdict::Interior => expected == TriangleVerdict::Interior,
+        Verdict::Edge(i) => {
+            [TriangleVerdict::Edge(i), TriangleVerdict::Degenerate].contains(&expected)
+        }
+        Verdict::Vertex(i) => {
+            [TriangleVerdict::Vertex(i), TriangleVerdict::Degenerate].contains(&expected)
+        }
+        Verdict::Coplanar => {
+            [TriangleVerdict::Coplanar, TriangleVerdict::Degenerate].contains(&expected)
+        }
+    };
+    assert!(is_agreed, "exact: not {expected:?}");
+    if expected.hits() {
+        let t = exact::refine(ray, triangle).t;
+        assert_in_range("refine", t, ray);
+        let (low, high) = (t.next_down().into(), t.next_up().into());
+        let within = oracle::triangle_t_in(&ray.into(), shapes::vertices(triangle), low, high);
+        assert!(within != Some(false), "refine: t = {t:?}");
+    }
 }
 
 /// No weight is negative, and their sum is 1.

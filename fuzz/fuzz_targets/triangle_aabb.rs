@@ -2,7 +2,8 @@
 #![no_main]
 
 use isect::glam::{DVec3, Vec3, Vec3A};
-use isect::overlap::triangle_aabb::{clip, sat};
+use isect::overlap::triangle_aabb::{clip, exact, sat};
+use isect::testkit::{oracle, shapes, verdict};
 use isect::{Aabb, Triangle, Vector};
 use isect_fuzz::{FACTORS, Query, contains, is_finite};
 use libfuzzer_sys::fuzz_target;
@@ -26,6 +27,11 @@ fn all<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> [bool; 2] {
 }
 
 fn check<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>, is_integral: bool) -> [bool; 2] {
+    let touches = verdict::triangle_aabb(triangle, aabb);
+    let [min, max] = [aabb.min, aabb.max].map(shapes::array);
+    let clipped = oracle::triangle_aabb_clip(shapes::vertices(triangle), min, max);
+    assert_eq!(touches, clipped, "two independent oracles");
+    assert_eq!(exact::overlaps(triangle, aabb), touches, "exact");
     let [sat, clip] = all(triangle, aabb);
     let polygon = clip::clip(triangle, aabb);
     let vertices = polygon.vertices();
