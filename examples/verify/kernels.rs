@@ -82,12 +82,8 @@ fn kernels<V: Vector>() -> Vec<Contender> {
         ray_aabb::<V, _>("aabb::exact::hits", Exact, aabb::exact::hits),
         ray_sphere::<V, _>("sphere::algebraic", Sound, sphere::algebraic::intersect),
         ray_sphere::<V, _>("sphere::geometric", Sound, sphere::geometric::intersect),
-        ray_sphere::<V, _>("sphere::robust", Sound, sphere::robust::intersect),
-        ray_sphere::<V, _>("sphere::exact", Exact, sphere::exact::hits),
-        ray_plane::<V, _>("plane", Sound, plane::intersect),
-        ray_plane::<V, _>("plane::exact", Exact, |ray, plane| {
-            plane::exact::classify(ray, plane).is_some()
-        }),
+        ray_sphere::<V, _>("sphere::robust", Exact, sphere::robust::intersect),
+        ray_plane::<V, _>("plane", Exact, plane::intersect),
         overlap::<V>("triangle_aabb::sat", Sound, triangle_aabb::sat::overlaps),
         overlap::<V>("triangle_aabb::clip", Sound, triangle_aabb::clip::overlaps),
         overlap::<V>("triangle_aabb::exact", Exact, triangle_aabb::exact::overlaps),

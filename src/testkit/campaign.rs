@@ -451,10 +451,8 @@ mod tests {
             };
             let reports = [
                 CAMPAIGN.ray_aabb("box", boxes),
-                CAMPAIGN.ray_sphere::<V, _>("sphere", sphere::exact::hits),
-                CAMPAIGN.ray_plane::<V, _>("plane", |ray, plane| {
-                    plane::exact::classify(ray, plane).is_some()
-                }),
+                CAMPAIGN.ray_sphere::<V, _>("sphere", sphere::robust::intersect),
+                CAMPAIGN.ray_plane::<V, _>("plane", plane::intersect),
                 CAMPAIGN.triangle_aabb::<V>("overlap", triangle_aabb::exact::overlaps),
             ];
             assert!(reports.iter().all(Report::is_exact), "\n{}", table(&reports));
