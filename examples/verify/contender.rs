@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use isect::testkit::{Campaign, Report};
+use isect::testkit::{Campaign, Report, table};
 use rayon::prelude::*;
 
 /// What a kernel promises.
@@ -24,7 +24,7 @@ pub(crate) enum Promise {
 }
 
 impl Promise {
-    pub(crate) fn is_kept(self, report: &Report) -> bool {
+    fn is_kept(self, report: &Report) -> bool {
         match self {
             Self::Exact => report.is_exact(),
             Self::Refined => report.is_exact() && report.t_errors.worst <= 1,
@@ -39,7 +39,7 @@ impl Promise {
 /// A kernel that can be run over the cases of a campaign.
 pub(crate) struct Contender {
     pub(crate) name: String,
-    pub(crate) promise: Promise,
+    promise: Promise,
     run: Box<Run>,
 }
 
@@ -66,6 +66,9 @@ pub(crate) fn run(contenders: &[Contender], campaign: Campaign) -> Vec<Report> {
     let bar = ProgressBar::new((contenders.len() * parts.len()) as u64)
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.enable_steady_tick(Duration::from_millis(200));
+    // A panic is a fault to be counted, not one to be told of.
+    let hook = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| ()));
     let reports = contenders
         .par_iter()
         .map(|contender| {
@@ -82,17 +85,28 @@ pub(crate) fn run(contenders: &[Contender], campaign: Campaign) -> Vec<Report> {
             merged.unwrap_or_else(|| Report::new(&contender.name, ""))
         })
         .collect();
+    std::panic::set_hook(hook);
     bar.finish_and_clear();
     reports
 }
 
-/// The names of those that break their promise.
-pub(crate) fn broken(contenders: &[Contender], reports: &[Report]) -> Vec<String> {
-    let pairs = contenders.iter().zip(reports);
-    let broken = pairs.filter(|(contender, report)| !contender.promise.is_kept(report));
-    broken
-        .map(|(contender, report)| {
-            format!("{}, {}: {:?}", contender.name, report.vector, contender.promise)
-        })
-        .collect()
+/// Prints the table, a case of each fault of those that break their promise (or of all), and says whether none does.
+pub(crate) fn print(contenders: &[Contender], reports: &[Report], with_examples: bool) -> bool {
+    println!("{}", table(reports));
+    let mut broken = Vec::new();
+    for (contender, report) in contenders.iter().zip(reports) {
+        let is_kept = contender.promise.is_kept(report);
+        if with_examples || !is_kept {
+            report.examples.iter().for_each(|case| println!("{case}\n"));
+        }
+        if !is_kept {
+            broken.push(format!("{}, {}: {:?}", report.kernel, report.vector, contender.promise));
+        }
+    }
+    if broken.is_empty() {
+        println!("Every promise is kept.");
+    } else {
+        println!("Broken promises:\n{}", broken.join("\n"));
+    }
+    broken.is_empty()
 }

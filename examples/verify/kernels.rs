@@ -1,6 +1,6 @@
-//! This crate's kernels, and those of obvhs.
+//! The kernels of isect, and those of obvhs.
 
-use isect::glam::{DVec3, Vec3, Vec3A};
+use isect::glam::Vec3A;
 use isect::overlap::triangle_aabb;
 use isect::ray::aabb::{self, BoxRay};
 use isect::ray::triangle::watertight::ShearedRay;
@@ -57,8 +57,8 @@ fn overlap<V: Vector>(
     Contender::new(name, promise, move |campaign, name| campaign.triangle_aabb(name, kernel))
 }
 
-/// The kernels of this crate on one vector type.
-fn kernels<V: Vector>() -> Vec<Contender> {
+/// The kernels of isect on one vector type.
+pub(crate) fn of_isect<V: Vector>() -> Vec<Contender> {
     use Promise::{Conservative, Exact, Refined, Sound, Watertight};
     vec![
         ray_triangle::<V, _>("triangle::moller_trumbore", Sound, moller_trumbore::intersect),
@@ -95,7 +95,7 @@ fn obvhs_ray(ray: &Ray<Vec3A>) -> obvhs::ray::Ray {
 }
 
 /// The kernels of obvhs; its box test takes no range.
-fn obvhs() -> Vec<Contender> {
+pub(crate) fn of_obvhs() -> Vec<Contender> {
     vec![
         ray_triangle("obvhs Triangle::intersect", Promise::Unknown, |ray, triangle| {
             let Triangle { v0, v1, v2 } = *triangle;
@@ -114,12 +114,4 @@ fn obvhs() -> Vec<Contender> {
             },
         ),
     ]
-}
-
-/// All of them.
-pub(crate) fn all() -> Vec<Contender> {
-    [kernels::<Vec3>(), kernels::<Vec3A>(), kernels::<DVec3>(), obvhs()]
-        .into_iter()
-        .flatten()
-        .collect()
 }

@@ -4,15 +4,24 @@
 //! Absolute times drift with the machine's clock and its other work. So the contenders take turns,
 //! in a new random order in each round, and what counts is the ratio of a contender's time to the
 //! reference's in the same round.
+//!
+//! With `--verify` it runs them over the testkit's hard cases instead, and prints their faults.
 
+#[path = "../../../examples/verify/contender.rs"]
+mod contender;
 #[path = "../../data/mod.rs"]
 mod data;
+#[path = "../../../examples/verify/kernels.rs"]
+mod kernels;
 mod peer;
 mod ray_box;
 mod ray_triangle;
 mod report;
 mod timing;
 mod triangle_box;
+mod verify;
+
+use std::process::ExitCode;
 
 use clap::Parser;
 
@@ -31,10 +40,22 @@ struct Options {
     /// Only questions whose title contains this.
     #[arg(long, default_value = "")]
     question: String,
+    /// Compares answers with exact arithmetic, in place of times with each other.
+    #[arg(long)]
+    verify: bool,
+    /// With --verify: cases for each contender.
+    #[arg(long, default_value_t = 100_000)]
+    cases: u64,
+    /// With --verify: the seed of the cases.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
 }
 
-fn main() {
+fn main() -> ExitCode {
     let options = Options::parse();
+    if options.verify {
+        return verify::run(&options.filter, options.cases, options.seed);
+    }
     let rounds = if options.quick { 3 } else { options.rounds };
     println!("{}", report::machine());
     let questions =
@@ -44,4 +65,5 @@ fn main() {
         let results = timing::race(&question.contenders, rounds);
         println!("{}", report::table(&question, &results));
     }
+    ExitCode::SUCCESS
 }
