@@ -145,8 +145,8 @@ pub trait Scalar:
     #[doc(hidden)]
     const FILTER_RAISE: Self;
 
-    /// Undoes [`Self::FILTER_RAISE`], and scales by 2⁻⁶ (2⁻¹⁵): a product of three lengths so scaled is
-    /// 64·(EPSILON/2) times that of the lengths (in `f64` four times as much).
+    /// Undoes [`Self::FILTER_RAISE`], and scales by the cube root of 56·(EPSILON/2): so much is the product
+    /// of three lengths so scaled, times that of the lengths.
     #[doc(hidden)]
     const FILTER_LOWER: Self;
 
@@ -284,9 +284,9 @@ macro_rules! scalar {
             const NAN: Self = $t::NAN;
             const MAX: Self = $t::MAX;
             const MIN_POSITIVE: Self = $t::MIN_POSITIVE;
-            const FILTER_FLOOR: Self = pow2($filter[0]) as $t;
-            const FILTER_RAISE: Self = pow2($filter[1]) as $t;
-            const FILTER_LOWER: Self = pow2($filter[2]) as $t;
+            const FILTER_FLOOR: Self = pow2(-$filter.0) as $t;
+            const FILTER_RAISE: Self = pow2($filter.1) as $t;
+            const FILTER_LOWER: Self = ($filter.2 * pow2(-$filter.1)) as $t;
 
             #[inline(always)]
             fn next_up(self) -> Self {
@@ -347,8 +347,8 @@ const fn pow2(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-scalar!(f32, 23, 8, 0xff, pow2(38), [-40, 91, -97], root32::sqrt, two_product_f32);
-scalar!(f64, 52, 11, 0x7ff, pow2(300), [-300, 723, -738], root64::sqrt, two_product_f64);
+scalar!(f32, 23, 8, 0xff, pow2(38), (40, 91, 0.014_944_78), root32::sqrt, two_product_f32);
+scalar!(f64, 52, 11, 0x7ff, pow2(300), (300, 723, 1.838_792_7e-5), root64::sqrt, two_product_f64);
 
 /// Three numbers x, y, z (or three times several, side by side in lanes), as a kernel body sees
 /// them.

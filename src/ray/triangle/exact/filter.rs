@@ -12,7 +12,7 @@
 //! 7·6u = 42u times the three lengths of their columns, and s0, with two more roundings and k1·k2 ≤ s²/4,
 //! by at most 54u·kd·(s·ka + s²/4). All are within
 //!
-//! E = 64u·kd·s·(ka + s),
+//! E = 56u·kd·s·(ka + s),
 //!
 //! and what is left of it outweighs terms of second order and the rounding of E itself.
 //!
@@ -22,13 +22,13 @@
 //! * In the first case |t|·kd ≤ ka + s, as the point lies in the triangle. So T − t·den is off by at
 //!   most 48u·k1·k2·ka + |t|·42u·k1·k2·kd ≤ 22.5u·s²·(ka + s), and t, with its own rounding, by
 //!   at most 24u·s²·(ka + s)/|den|. An end of the range is on the side of t on which it seems to be if
-//!   it is further off than 64u·s²·(ka + s)/|den|.
+//!   it is further off than 56u·s²·(ka + s)/|den|.
 //!
 //! **Underflow and overflow.** The lengths count as at least φ = 2⁻⁴⁰ (`f64`: 2⁻³⁰⁰), and from
 //! 2³⁷ (2³⁰¹) on as infinite. With that no product of three overflows where E is finite. A product
 //! that underflows is off by at most 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵), and is then multiplied by at most one
-//! length k: together less than 2⁻¹⁴⁷·(1 + k), while E is at least 2⁻¹⁸·φ·2φ·max(k, 3φ) (2⁻⁴⁵·…), which
-//! is 2⁵⁰ times as much for every k. (If kd is shorter than φ, |t|·kd ≤ ka + s is of use only where all
+//! length k: together less than 2⁻¹⁴⁷·(1 + k), while E is at least 2⁻¹⁹·φ·2φ·max(k, 3φ) (2⁻⁴⁸·…), which
+//! is 2⁴⁹ times as much for every k. (If kd is shorter than φ, |t|·kd ≤ ka + s is of use only where all
 //! three signs are certain: then 3E < |den| ≤ 1.5·s²·kd, so that kd > 2⁻⁵⁷, and the same holds.)
 //!
 //! Each comparison is written so that a NaN leaves the case undecided; and where a column has a NaN
