@@ -63,6 +63,7 @@ impl Campaign {
     }
 
     /// A ray against a plane; t is that of the crossing.
+    #[must_use]
     pub fn ray_plane<V: Vector, A: Answer<V::Scalar>>(
         &self,
         name: &str,
@@ -72,6 +73,7 @@ impl Campaign {
     }
 
     /// A ray against the surface of a sphere; t is that of the nearest root in range.
+    #[must_use]
     pub fn ray_sphere<V: Vector, A: Answer<V::Scalar>>(
         &self,
         name: &str,
@@ -81,6 +83,7 @@ impl Campaign {
     }
 
     /// A ray against a box; t is the first that is in the box and in the range.
+    #[must_use]
     pub fn ray_aabb<V: Vector, A: Answer<V::Scalar>>(
         &self,
         name: &str,
@@ -93,6 +96,7 @@ impl Campaign {
     ///
     /// Some of the rays lie in the triangle's plane, and some of the triangles are segments or points. They are hit as the
     /// sets of points that they are; a kernel which misses them has false misses.
+    #[must_use]
     pub fn ray_triangle<V: Vector, A: Answer<V::Scalar>>(
         &self,
         name: &str,
@@ -102,6 +106,7 @@ impl Campaign {
     }
 
     /// A triangle against a box.
+    #[must_use]
     pub fn triangle_aabb<V: Vector>(
         &self,
         name: &str,
@@ -145,6 +150,7 @@ impl Campaign {
 
     /// Rays from inside of closed meshes, aimed at points of edges and at vertices, and one in 16 anywhere: each is to be
     /// stopped by a triangle. The meshes are an icosphere and a cube with vertices on a lattice, both also far away.
+    #[must_use]
     pub fn leaks<V: Vector, A: Answer<V::Scalar>>(
         &self,
         kernel_name: &str,
