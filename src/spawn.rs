@@ -132,7 +132,7 @@ impl<T: Scalar> SphereHit<T> {
     /// 4u·r: the computed |m| is off by 3.5u·r. The last term is for rays to the inside: rounding moves
     /// their origin by up to 5.2u·P across m, which takes it (5.2u·P)²/2r outward.
     ///
-    /// A sphere that floats cannot tell from a point (r < 32u·P, or a subnormal r) gets an error that
+    /// A sphere that floats cannot tell from a point (r < 32u·P, or below four times the smallest normal number) gets an error that
     /// covers the whole of it: a ray to the inside starts behind it. An eighth of the error would be too little.
     ///
     /// For a hit on another sphere the result means nothing.
@@ -164,7 +164,7 @@ impl<T: Scalar> SphereHit<T> {
         let arm = point - center;
         let length = arm.length();
         let rounding = (epsilon + epsilon) * point.abs().max_element();
-        let smallest = (rounding * epsilon.lit(8.0)).max(T::MIN_POSITIVE);
+        let smallest = (rounding * epsilon.lit(8.0)).max(T::MIN_POSITIVE * epsilon.lit(4.0));
         let error = if radius < smallest || length == T::ZERO {
             (arm.abs() + V::splat(radius)) * (T::ONE + epsilon.lit(16.0) * epsilon)
         } else {
@@ -335,7 +335,8 @@ pub fn offset_origin<V: Vector>(point: V, error: V, normal: V, direction: V) -> 
 ///
 /// Where each point is in the plane of the other's surface, up to their errors, both ends come to the same
 /// side of it. Where only one is, as at the seam of a wall and a floor, the segment may hit the surface
-/// of the other there.
+/// of the other there; and so it may where a normal over- or underflows, and the error is the whole of the
+/// triangle.
 ///
 /// Bad input is treated as by [`offset_origin`].
 ///

@@ -135,7 +135,7 @@ pub trait Scalar:
     /// The smallest positive normal number.
     const MIN_POSITIVE: Self;
 
-    /// The least length that a filter reckons with, 2⁻⁴⁰ (2⁻³⁰⁰ for `f64`): it takes shorter vectors
+    /// The least length that a filter reckons with, 2⁻³⁶ (2⁻³⁰⁰ for `f64`): it takes shorter vectors
     /// to be that long, so that a product of three lengths stays far above what underflow loses.
     #[doc(hidden)]
     const FILTER_FLOOR: Self;
@@ -347,7 +347,7 @@ const fn pow2(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-scalar!(f32, 23, 8, 0xff, pow2(38), (40, 91, 0.014_944_78), root32::sqrt, two_product_f32);
+scalar!(f32, 23, 8, 0xff, pow2(38), (36, 91, 0.014_944_78), root32::sqrt, two_product_f32);
 scalar!(f64, 52, 11, 0x7ff, pow2(300), (300, 723, 1.838_792_7e-5), root64::sqrt, two_product_f64);
 
 /// Three numbers x, y, z (or three times several, side by side in lanes), as a kernel body sees

@@ -79,6 +79,67 @@ fn classify_agrees_with_the_oracle() {
     for_every_vector!(check);
 }
 
+/// So small a triangle and so short a direction that the determinant is barely a normal number, with a range that ends close to
+/// t: there underflow moves t by more than rounding does.
+#[test]
+fn underflow_is_within_the_bounds() {
+    fn check<V: Vector>() {
+        let (size, length) = if size_of::<V::Scalar>() == 4 { (-40, -56) } else { (-320, -330) };
+        let mut rng = fastrand::Rng::with_seed(SEED + 9);
+        let mut decided = 0_u32;
+        for _ in 0..60_000 {
+            let shift = rng.i32(0..=8);
+            let size = 2f64.powi(size + shift + rng.i32(-1..4));
+            let length = 2f64.powi(length + shift + rng.i32(-2..8));
+            let corner = |rng: &mut fastrand::Rng, k: usize| {
+                std::array::from_fn(|i| {
+                    exactly::<V>(size * (f64::from(u8::from(i == k)) + (rng.f64() - 0.5) / 2.0))
+                })
+            };
+            let v = [0, 1, 2].map(|k| corner(&mut rng, k));
+            let direction = [(); 3].map(|()| exactly::<V>(length * (2.0 * rng.f64() - 1.0)));
+            let t = 2.0 * rng.f64() * size / length;
+            let origin: [f64; 3] = std::array::from_fn(|i| {
+                exactly::<V>((v[0][i] + v[1][i] + v[2][i]) / 3.0 - t * direction[i])
+            });
+            let line = Ray::<V>::new(vector(origin), vector(direction))
+                .with_range(-V::Scalar::INFINITY, V::Scalar::INFINITY);
+            let triangle = triangle::<V>(&v);
+            let Some(hit) = exact::intersect(&line, &triangle) else { continue };
+            decided += u32::from(exact::stage(&line, &triangle) == 0);
+            let mut end = exact::refine(&line, &triangle).t;
+            for _ in 0..rng.u32(1..64) {
+                end = end.next_down();
+            }
+            let short = Ray { t_max: end, ..line };
+            let case =
+                oracle::Ray { origin, direction, t_min: f64::NEG_INFINITY, t_max: end.into() };
+            let expected = oracle::triangle(&case, v).hits();
+            assert_eq!(
+                exact::hits(&short, &triangle),
+                expected,
+                "{} {case:?} {v:?} {hit:?}",
+                name::<V>()
+            );
+        }
+        println!("{:<6} {decided} decided in floats", name::<V>());
+        assert!(decided > 1_000, "{decided}");
+    }
+    for_every_vector!(check);
+    // One of them: the exact t is 31810.027, just after the end of the range.
+    let bits = |bits: [u32; 3]| Vec3::from_array(bits.map(f32::from_bits));
+    let triangle = isect::Triangle::new(
+        bits([0x2b89_ae10, 0x2a4d_dd73, 0x2a68_8f95]),
+        bits([0x28e0_21cc, 0x2b49_e353, 0x2917_1492]),
+        bits([0x2957_36af, 0xa9e8_eb75, 0x2b95_9835]),
+    );
+    let ray = Ray::new(
+        bits([0x2b1c_9d81, 0xaba3_442f, 0xab63_50c6]),
+        bits([0xa2ef_077c, 0x244e_ae91, 0x2434_0cd8]),
+    );
+    assert!(!ray.with_range(0.0, f32::from_bits(0x46f8_840d)).hits(&triangle));
+}
+
 /// What is to be reported of a segment or a point that is hit.
 fn is_of_degenerate(case: &oracle::Ray, v: &[[f64; 3]; 3], verdict: Verdict) -> bool {
     let line = oracle::Ray { t_min: f64::NEG_INFINITY, t_max: f64::INFINITY, ..*case };

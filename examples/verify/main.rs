@@ -16,13 +16,13 @@ use isect::testkit::Campaign;
 /// Asks every kernel about hard cases and compares the answers with exact arithmetic.
 ///
 /// The exit code is 1 if a kernel breaks its promise: an exact one with any wrong verdict, a conservative one that misses,
-/// a watertight one that leaks, any with a NaN in a hit, a hit of bad input, a panic. The wrong verdicts of the fast kernels
+/// a watertight one that leaks, any with a NaN in a hit, a t out of range, a hit of bad input, a panic. The wrong verdicts of the fast kernels
 /// and of other libraries are only reported.
 #[derive(Debug, Parser)]
 #[command(name = "verify")]
 struct Arguments {
     /// Cases per kernel and vector type, and rays out of closed meshes
-    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..))]
     cases: u64,
     /// Seed of the cases
     #[arg(long, value_name = "N", default_value_t = 1)]

@@ -136,6 +136,7 @@ impl Campaign {
                 Fault::FalseHit => &mut report.false_hits,
                 Fault::BadInputHit => &mut report.bad_input_hits,
                 Fault::Nan => &mut report.nans,
+                Fault::OutOfRange => &mut report.out_of_range,
                 Fault::Panic | Fault::Leak => &mut report.panics,
             } += 1;
             report.remember(fault, || Case {
@@ -149,7 +150,8 @@ impl Campaign {
     }
 
     /// Rays from inside of closed meshes, aimed at points of edges and at vertices, and one in 16 anywhere: each is to be
-    /// stopped by a triangle. The meshes are an icosphere and a cube with vertices on a lattice, both also far away.
+    /// stopped by a triangle, at a t in its range. The meshes are an icosphere and a cube with vertices on a lattice, both
+    /// also far away.
     #[must_use]
     pub fn leaks<V: Vector, A: Answer<V::Scalar>>(
         &self,
@@ -165,7 +167,10 @@ impl Campaign {
             let mut stops = |triangle: &Triangle<V>| {
                 let answer = catch(|| kernel(&ray, triangle));
                 has_panicked |= answer.is_none();
-                answer.is_some_and(|answer| answer.is_hit())
+                answer.is_some_and(|answer| {
+                    let t = answer.t().map(Into::into);
+                    answer.is_hit() && t.is_none_or(|t| (ray, *triangle).has_in_range(t))
+                })
             };
             let is_stopped =
                 room.near(aim).any(&mut stops) || room.triangles.iter().any(&mut stops);
@@ -220,7 +225,11 @@ where
         (true, false) => Some(Fault::BadInputHit),
         (false, false) => None,
         (true, true) => {
-            if let (true, Some(t)) = (measures, answer.t()) {
+            let t = answer.t()?;
+            if !query.has_in_range(t.into()) {
+                return Some(Fault::OutOfRange);
+            }
+            if measures {
                 measure(query, t, report);
             }
             None
@@ -416,13 +425,16 @@ mod tests {
         let is_valid = |ray: &Ray, triangle: &Triangle| (*ray, *triangle).is_valid();
         let hits_all =
             |ray: &Ray, triangle: &Triangle| is_valid(ray, triangle).then(|| at(ray.t_min));
-        assert_eq!(report(&hits_all), (one(1), vec![Fault::FalseHit]));
+        assert_eq!(report(&hits_all), (one(1), vec![Fault::FalseHit, Fault::OutOfRange]));
         let hits_bad = |ray: &Ray, triangle: &Triangle| {
             if is_valid(ray, triangle) { right(ray, triangle) } else { Some(at(1.0)) }
         };
         assert_eq!(report(&hits_bad), (one(2), vec![Fault::BadInputHit]));
         let nan = |ray: &Ray, triangle: &Triangle| right(ray, triangle).map(|_| at(f32::NAN));
         assert_eq!(report(&nan), (one(3), vec![Fault::Nan]));
+        let beyond =
+            |ray: &Ray, triangle: &Triangle| right(ray, triangle).map(|_| at(f32::INFINITY));
+        assert_eq!(report(&beyond), ([false; 5], vec![Fault::OutOfRange]));
         let panics = |ray: &Ray, triangle: &Triangle| {
             let hit = right(ray, triangle);
             if !is_valid(ray, triangle) {
@@ -442,6 +454,14 @@ mod tests {
             watertight::intersect(&watertight::ShearedRay::new(ray), triangle)
         };
         assert!(CAMPAIGN.leaks("watertight", kernel).is_watertight());
+        // What is behind the origin stops no ray.
+        let line = |ray: &Ray, triangle: &Triangle| {
+            let line = ray.with_range(f32::NEG_INFINITY, f32::INFINITY);
+            moller_trumbore::intersect(&line, triangle)
+        };
+        assert_eq!(CAMPAIGN.leaks("line", line).leaks, fast.leaks);
+        let nan = CAMPAIGN.leaks("nan", |_: &Ray, _: &Triangle| Some(f32::NAN)).leaks;
+        assert_eq!(nan.lost(), CAMPAIGN.cases);
         let none = CAMPAIGN.leaks("blind", |_: &Ray, _: &Triangle| false).leaks;
         assert_eq!(none.lost(), CAMPAIGN.cases);
         assert!(none.elsewhere.lost > 1000);

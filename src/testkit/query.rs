@@ -18,6 +18,14 @@ pub(super) trait Query: Copy + std::fmt::Debug {
     /// The ray, if one of them is one.
     fn ray_mut(&mut self) -> Option<&mut Ray<Self::Vector>>;
 
+    /// Whether a t is finite and in the range of the ray, if there is one.
+    fn has_in_range(mut self, t: f64) -> bool {
+        self.ray_mut().is_none_or(|ray| {
+            let range: [f64; 2] = [ray.t_min.into(), ray.t_max.into()];
+            t.is_finite() && range[0] <= t && t <= range[1]
+        })
+    }
+
     /// Whether the shapes have a point in common, exactly.
     fn touches(&self) -> bool;
 
@@ -72,7 +80,11 @@ impl Scale {
     }
 
     fn ray<V: Vector>(&self, ray: &oracle::Ray) -> Ray<V> {
-        let t = |x| scalar(multiplied::<V>(x, self.points / self.directions));
+        // One after the other: the quotient of the factors may be no number.
+        let t = |x| {
+            let scaled = multiplied::<V>(x, self.points);
+            scalar(multiplied::<V>(scaled, 1.0 / self.directions))
+        };
         Ray::new(
             self.point(ray.origin),
             vector(ray.direction.map(|x| multiplied::<V>(x, self.directions))),
@@ -223,6 +235,12 @@ impl<V: Vector> Query for (Ray<V>, Aabb<V>) {
 
     fn touches(&self) -> bool {
         verdict::ray_aabb(&self.0, &self.1)
+    }
+
+    /// A line may come from infinity, in a box without bounds.
+    fn has_in_range(self, t: f64) -> bool {
+        let range: [f64; 2] = [self.0.t_min.into(), self.0.t_max.into()];
+        range[0] <= t && t <= range[1] && t < f64::INFINITY
     }
 
     fn t_in(&self, lo: f64, hi: f64) -> Option<bool> {

@@ -13,6 +13,8 @@ pub enum Fault {
     BadInputHit,
     /// A number of the hit is NaN.
     Nan,
+    /// The t of the hit is not in the ray's range, or infinite.
+    OutOfRange,
     /// It panicked.
     Panic,
     /// A ray from inside of a closed mesh met none of its triangles.
@@ -26,6 +28,7 @@ impl Display for Fault {
             Self::FalseHit => "false hit",
             Self::BadInputHit => "hit of bad input",
             Self::Nan => "NaN in a hit",
+            Self::OutOfRange => "t out of range",
             Self::Panic => "panic",
             Self::Leak => "leak",
         })
@@ -149,6 +152,8 @@ pub struct Report {
     pub bad_input_hits: u64,
     /// Hits with a NaN.
     pub nans: u64,
+    /// Right hits with a t that is not in the ray's range, or infinite.
+    pub out_of_range: u64,
     /// Panics.
     pub panics: u64,
     /// The errors of t, of one right hit in four, where there is just one t that is right.
@@ -171,6 +176,7 @@ impl Report {
             false_hits: 0,
             bad_input_hits: 0,
             nans: 0,
+            out_of_range: 0,
             panics: 0,
             t_errors: TErrors::default(),
             leaks: Leaks::default(),
@@ -197,10 +203,11 @@ impl Report {
         self.leaks.lost() == 0 && self.is_sound()
     }
 
-    /// Whether no bad input was hit, no hit had a NaN, and nothing panicked: what this crate promises of every kernel.
+    /// Whether no bad input was hit, no hit had a NaN or a t out of range, and nothing panicked: what this crate promises of
+    /// every kernel. (Of no cases nothing is wrong.)
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        self.bad_input_hits + self.nans + self.panics == 0
+        self.bad_input_hits + self.nans + self.out_of_range + self.panics == 0
     }
 
     /// The report of both campaigns, about the same kernel.
@@ -212,6 +219,7 @@ impl Report {
             (&mut self.false_hits, other.false_hits),
             (&mut self.bad_input_hits, other.bad_input_hits),
             (&mut self.nans, other.nans),
+            (&mut self.out_of_range, other.out_of_range),
             (&mut self.panics, other.panics),
         ] {
             *count += more;
@@ -255,6 +263,7 @@ impl Report {
             verdicts(self.false_hits),
             verdicts(self.bad_input_hits),
             self.nans.to_string(),
+            verdicts(self.out_of_range),
             self.panics.to_string(),
             ulps(t.quantile(0.5)),
             ulps(t.quantile(0.99)),
@@ -271,7 +280,7 @@ fn approximate(ulps: u64) -> String {
     if ulps < 100_000 { ulps.to_string() } else { format!("{:.0e}", ulps as f64) }
 }
 
-const COLUMNS: [&str; 14] = [
+const COLUMNS: [&str; 15] = [
     "kernel",
     "vector",
     "cases",
@@ -279,6 +288,7 @@ const COLUMNS: [&str; 14] = [
     "false hit",
     "bad input hit",
     "NaN",
+    "t out of range",
     "panic",
     "ulps of t: 50 % ≤",
     "99 % ≤",
@@ -335,10 +345,10 @@ mod tests {
         let mut leaks = Report::new("b", "DVec3");
         leaks.leaks.at_edges = Loss { rays: 20, lost: 3 };
         let expected = "\
-| kernel          | vector | cases | false miss | false hit | bad input hit | NaN | panic | ulps of t: 50 % ≤ | 99 % ≤ | worst | leaks: edges | vertices | elsewhere |
-|-----------------|--------|------:|-----------:|----------:|--------------:|----:|------:|------------------:|-------:|------:|-------------:|---------:|----------:|
-| möller_trumbore | Vec3   |  1000 |          7 |         0 |             0 |   0 |     0 |                 0 |      4 |     3 |            – |        – |         – |
-| b               | DVec3  |     – |          – |         – |             – |   0 |     0 |                 – |      – |     – |            3 |        – |         – |
+| kernel          | vector | cases | false miss | false hit | bad input hit | NaN | t out of range | panic | ulps of t: 50 % ≤ | 99 % ≤ | worst | leaks: edges | vertices | elsewhere |
+|-----------------|--------|------:|-----------:|----------:|--------------:|----:|---------------:|------:|------------------:|-------:|------:|-------------:|---------:|----------:|
+| möller_trumbore | Vec3   |  1000 |          7 |         0 |             0 |   0 |              0 |     0 |                 0 |      4 |     3 |            – |        – |         – |
+| b               | DVec3  |     – |          – |         – |             – |   0 |              – |     0 |                 – |      – |     – |            3 |        – |         – |
 ";
         assert_eq!(table(&[verdicts.clone(), leaks.clone()]), expected);
         let lines: Vec<_> = expected.lines().take(3).collect();

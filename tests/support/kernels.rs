@@ -70,13 +70,14 @@ pub fn sphere_kernels<V: Vector>() -> [SphereKernel<V>; 3] {
 /// The yes-or-no of a ray/box kernel.
 pub type BoxKernel<V> = fn(&BoxRay<V>, &Aabb<V>) -> bool;
 
-pub fn box_kernels<V: Vector>() -> [(&'static str, BoxKernel<V>); 5] {
+pub fn box_kernels<V: Vector>() -> [(&'static str, BoxKernel<V>); 6] {
     [
         ("slab::hits", slab::hits),
         ("slab::intersect", |ray, aabb| slab::intersect(ray, aabb).is_some()),
         ("conservative::hits", conservative::hits),
         ("conservative::interval", |ray, aabb| conservative::interval(ray, aabb).is_some()),
         ("exact::hits", box_exact::hits),
+        ("exact::intersect", |ray, aabb| box_exact::intersect(ray, aabb).is_some()),
     ]
 }
 

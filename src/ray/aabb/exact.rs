@@ -87,11 +87,41 @@ pub fn intersect<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> Option<AabbHit<V
         return None;
     }
     let (_, mut hit) = slab::crossing(ray, aabb);
+    if !(hit.t_enter.is_finite() && hit.t_exit.is_finite()) {
+        hit = within_floats(ray, aabb, hit);
+    }
     // The ends in the range, and in order.
-    let largest = V::Scalar::MAX;
-    hit.t_enter = hit.t_enter.min(ray.t_max).min(largest);
+    hit.t_enter = hit.t_enter.min(ray.t_max);
     hit.t_exit = hit.t_exit.max(hit.t_enter);
     Some(hit)
+}
+
+/// Brings an end that is infinite because it is beyond the largest float back to that, with the face of
+/// the first axis on which the box is bounded there. Where it is on none the end is infinite.
+#[cold]
+fn within_floats<V: Vector>(
+    ray: &BoxRay<V>,
+    aabb: &Aabb<V>,
+    hit: AabbHit<V::Scalar>,
+) -> AabbHit<V::Scalar> {
+    let largest = V::Scalar::MAX;
+    let bounded = |far_side: u8| {
+        (0..3).find_map(|axis| {
+            let side = ray.entry_side[axis] ^ far_side;
+            let plane = if side == 0 { aabb.min } else { aabb.max }.component(axis);
+            let crosses = ray.direction.component(axis) != V::Scalar::ZERO && plane.is_finite();
+            let face = slab::FACES[2 * axis + usize::from(side)];
+            if crosses { face } else { None }
+        })
+    };
+    let AabbHit { mut t_enter, mut t_exit, mut enter_face, mut exit_face } = hit;
+    if let (false, Some(face)) = (t_enter.is_finite(), bounded(0)) {
+        (t_enter, enter_face) = (t_enter.max(-largest).min(largest), Some(face));
+    }
+    if let (false, Some(face)) = (t_exit.is_finite(), bounded(1)) {
+        (t_exit, exit_face) = (t_exit.max(-largest).min(largest), Some(face));
+    }
+    AabbHit { t_enter, t_exit, enter_face, exit_face }
 }
 
 /// Decides a case that the bound leaves open, or one with bad input.

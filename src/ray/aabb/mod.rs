@@ -302,6 +302,22 @@ mod tests {
         );
     }
 
+    /// Beyond the largest float is not unbounded.
+    #[test]
+    fn far_ends_are_finite_and_have_faces() {
+        let cube = |size: f32| Aabb::new(Vec3::splat(-size), Vec3::splat(size));
+        let slow = |from: f32| Ray::new(Vec3::X * from, Vec3::X * 1e-20);
+        let hit = slow(0.0).intersect(&cube(1e30)).expect("from inside");
+        assert_eq!((hit.t_exit, hit.surface()), (f32::MAX, Some((f32::MAX, Face::PosX))));
+        let before = slow(0.0).with_range(f32::NEG_INFINITY, 0.0);
+        let hit = before.intersect(&cube(1e30)).expect("from inside");
+        assert_eq!((hit.t_enter, hit.enter_face), (f32::MIN, Some(Face::NegX)));
+        let line = slow(-2e30).with_range(f32::NEG_INFINITY, f32::INFINITY);
+        let hit = line.intersect(&cube(1e30)).expect("before it");
+        assert_eq!((hit.t_enter, hit.t_exit), (f32::MAX, f32::MAX));
+        assert_eq!((hit.enter_face, hit.exit_face), (Some(Face::NegX), Some(Face::PosX)));
+    }
+
     #[test]
     fn all_vectors_give_the_same_faces() {
         let ray = Ray::new(Vec3::new(0.5, 3.0, 0.5), Vec3::new(0.25, -2.0, 0.125));

@@ -69,7 +69,7 @@ pub(super) fn crossing<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> (bool, Aab
 const NO_FACE: usize = 6;
 
 /// By axis, then side; and none.
-const FACES: [Option<Face>; 7] = [
+pub(super) const FACES: [Option<Face>; 7] = [
     Some(Face::NegX),
     Some(Face::PosX),
     Some(Face::NegY),

@@ -56,7 +56,8 @@ pub fn intersect<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V
 /// The outcome if it is certain; it is not for a ray that is parallel to the plane.
 ///
 /// Of N each product carries 4 roundings, of D 3; the bounds have 6 of each, to outweigh terms of second
-/// order and their own rounding, and a little for what underflow loses. Then |N − t·D| ≤ δN + |t|·δD
+/// order and their own rounding, and, as they are above the smallest normal number, what underflow loses, 3
+/// times 2⁻²⁴ (`f64`: 2⁻⁵³) of that at the most. Then |N − t·D| ≤ δN + |t|·δD
 /// for the exact numerator and denominator and the computed t, and where D's sign is certain t lies on
 /// that side of an end of the range on which it seems to be if it is further off than that over |D|, and
 /// than its own rounding.
@@ -69,14 +70,14 @@ fn certain<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<Option<PlaneHit<
 
     let sizes = Coordinates::abs(normal);
     let (roundings, tiny) = (V::Scalar::EPSILON * t.lit(3.0), V::Scalar::MIN_POSITIVE);
-    let numerator_error =
-        roundings * (offset.abs() + sizes.dot(Coordinates::abs(ray.origin))) + tiny;
-    let denominator_error = roundings * sizes.dot(Coordinates::abs(ray.direction)) + tiny;
+    let numerator_error = roundings * (offset.abs() + sizes.dot(Coordinates::abs(ray.origin)));
+    let denominator_error = roundings * sizes.dot(Coordinates::abs(ray.direction));
     let steepness = denominator.abs();
     let error = numerator_error + t.abs() * (denominator_error + roundings * steepness);
 
     let within = (t - ray.t_min).min(ray.t_max - t);
-    let is_certain = steepness > denominator_error
+    let is_certain = numerator_error.min(denominator_error) > tiny
+        && steepness > denominator_error
         && (within * steepness).abs() > error
         && ray.t_min <= ray.t_max;
     is_certain.then(|| (within > V::Scalar::ZERO).then_some(PlaneHit::At(t)))
@@ -124,6 +125,10 @@ mod tests {
         assert!(at(1e30)(along(1e20, -1e20, 1e-10)));
         assert_eq!(along(1e-30, 1e-20, 1e20), None);
         assert!(at(1e-40)(along(1e-30, -1e-20, 1e20)));
+        let tiny = 2.0_f32.powi(-121);
+        let line = Ray::new(Vec3::X * 2.0_f32.powi(-40), Vec3::NEG_X);
+        let plane = Plane { normal: Vec3::X * tiny, offset: 0.0 };
+        assert!(at(2.0_f32.powi(-40))(intersect(&line, &plane)));
         for normal in [1.0, 1e9, 1e-9, 1e38] {
             let plane = Plane { normal: Vec3::new(normal, -normal, 0.0), offset: 0.0 };
             let ray = Ray::new(Vec3::new(1e30, 1e30, 0.0), Vec3::new(1.0, 1.0, 0.0));

@@ -19,7 +19,7 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 ///
 /// **Grade: exact** for hit or miss, and for which root it is, for every finite input. t has an error in
 /// proportion to the distance and not to its square: it is the exact one for a radius that differs by at
-/// most 16u·(|f| + r), u = EPSILON/2; it is in the range, and the largest float where it is beyond that.
+/// most 16u·(|f| + r), u = EPSILON/2, unless it is subnormal; it is in the range, and the largest float where it is beyond that.
 ///
 /// A zero direction, a negative radius, a NaN or infinite field, an empty range: a miss. A radius of zero is
 /// a point.
@@ -58,7 +58,8 @@ struct Solution<T> {
 /// 14u|f|, and r − |q| by less than 16u(|f| + r). Let c be half the chord: c² = (r + |q|)(r − |q|). If
 /// r − |q| is large against its error, the root of the discriminant, |d|c, is off by
 /// |d|(14u|f|r/c + 4uc); s with it by 4u|f||d| more; s/d² by at most 24u(|f| + r)(r/c)/|d|, as c ≤ r.
-/// Of the other root, |f| − r is off by 3.5u|f|, which |s| ≥ |d|c divides; it is the lesser one, so that
+/// Of the other root, |f| − r is off by 3.5u|f|, which |s| ≥ |d|c, or ≥ |f·d| where the origin is far away,
+/// divides; it is the lesser one, so that
 /// the error of s counts no more than in the first: in all at most 48u(|f| + r)(r/c)/|d|. Taken are 64u.
 #[inline(always)]
 fn solve<T: Scalar, V: Coordinates<Scalar = T>>(q: &Quadratic<V>) -> Solution<T> {

@@ -24,12 +24,17 @@
 //!   at most 24u·s²·(ka + s)/|den|. An end of the range is on the side of t on which it seems to be if
 //!   it is further off than 56u·s²·(ka + s)/|den|.
 //!
-//! **Underflow and overflow.** The lengths count as at least φ = 2⁻⁴⁰ (`f64`: 2⁻³⁰⁰), and from
-//! 2³⁷ (2³⁰¹) on as infinite. With that no product of three overflows where E is finite. A product
-//! that underflows is off by at most 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵), and is then multiplied by at most one
-//! length k: together less than 2⁻¹⁴⁷·(1 + k), while E is at least 2⁻¹⁹·φ·2φ·max(k, 3φ) (2⁻⁴⁸·…), which
-//! is 2⁴⁹ times as much for every k. (If kd is shorter than φ, |t|·kd ≤ ka + s is of use only where all
-//! three signs are certain: then 3E < |den| ≤ 1.5·s²·kd, so that kd > 2⁻⁵⁷, and the same holds.)
+//! **Underflow and overflow.** The lengths count as at least φ = 2⁻³⁶ (`f64`: 2⁻³⁰⁰), and from
+//! 2³⁷ (2³⁰¹) on as infinite. With that no product of three overflows where E is finite. A product that
+//! underflows is off by at most η = 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵): a minor of two columns by 2η, which a third length
+//! multiplies, and a determinant, with three more products, by at most η·(3 + 14k), k the longest. E is at
+//! least 56u·φ·2φ·3φ, more than 2⁻¹²⁴, and at least 56u·2φ²·k: by far more, for every k, in either type.
+//!
+//! For t it takes more. If kd is shorter than φ, |t| may be large; but where all three signs are certain,
+//! 3E < |den| ≤ 1.5·s²·kd (and what underflow loses, which is less than E), so that kd > 112u·φ·(ka + s)/s and
+//! |t| ≤ (ka + s)/kd < s/(112u·φ) ≤ (ka + s)/(112u·φ). With den off by η·(3 + 8s + 6kd), t·den is off by at
+//! most η·((3 + 8s)/(112u·φ) + 6)·(ka + s), where 32u·s²·(ka + s) are left over for it; as s ≥ 2φ that is
+//! enough if φ³ ≥ 3η/(112u·128u), or φ ≥ 2⁻³⁸ (`f64`: 2⁻³²⁷), the other two terms being smaller by far.
 //!
 //! Each comparison is written so that a NaN leaves the case undecided; and where a column has a NaN
 //! or an infinite component, den is NaN, or s1 and s2 are, or E is infinite.

@@ -46,9 +46,9 @@ pub enum Verdict {
 /// for every finite input; a triangle without area is the segment or the point that it is.
 /// Let P(a, b, c) be the sum of the magnitudes of the six terms of a·(b × c) and u' = EPSILON/2. To
 /// first order u is off by at most 8u'·(P(s, d, e2) + |u|·P(d, e1, e2))/|d·n|, v by
-/// 8u'·(P(s, d, e1) + |v|·P(d, e1, e2))/|d·n|, and t by 9u'·(P(s, e1, e2) + |t|·P(d, e1, e2))/|d·n|; where the
-/// bound leaves the verdict open they are as exact as those of [`refine`], but for a rounding.
-/// t is in the range, and the largest float where it is beyond that.
+/// 8u'·(P(s, d, e1) + |v|·P(d, e1, e2))/|d·n|, and t by 9u'·(P(s, e1, e2) + |t|·P(d, e1, e2))/|d·n|. Where
+/// the bound leaves the verdict open they come from `f64`, with its u' and rounded once more, or are those
+/// of [`refine`]. t is in the range, and the largest float where it is beyond that.
 ///
 /// A zero direction, a NaN or infinite field, an empty range: a miss.
 ///
