@@ -26,8 +26,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser, ValueEnum};
+use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use isect::Triangle;
 use isect::glam::Vec3A;
@@ -139,10 +138,18 @@ fn parse_samples(text: &str) -> Result<SamplesPerEdge, String> {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) if error.use_stderr() => {
+            // The reason is in the first line; usage and tips follow it.
+            eprintln!("{}", error.to_string().lines().next().unwrap_or_default());
+            return ExitCode::from(2);
+        }
+        Err(help) => help.exit(),
+    };
     if arguments.mesh.is_some() && !arguments.scene.has_mesh() {
-        let message = "there is no mesh in this scene, so '--mesh' has no place";
-        Arguments::command().error(ErrorKind::ArgumentConflict, message).exit();
+        eprintln!("error: there is no mesh in this scene, so '--mesh' has no place");
+        return ExitCode::from(2);
     }
     match run(&arguments) {
         Ok(report) => {

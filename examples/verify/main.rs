@@ -36,7 +36,15 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) if error.use_stderr() => {
+            // The reason is in the first line; usage and tips follow it.
+            eprintln!("{}", error.to_string().lines().next().unwrap_or_default());
+            return ExitCode::from(2);
+        }
+        Err(help) => help.exit(),
+    };
     let mut contenders = kernels::of_isect::<Vec3>();
     contenders.extend(kernels::of_isect::<Vec3A>());
     contenders.extend(kernels::of_isect::<DVec3>());
