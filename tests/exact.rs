@@ -215,18 +215,18 @@ fn crossings_of_closed_meshes_have_the_right_parity() {
     let cube = meshes::lattice_cube(2);
     // An origin on the surface is moved towards positive x, y and z.
     let in_cube = |p: [f64; 3]| Some(p.iter().all(|x| (0.0..2.0).contains(x)));
-    check::<Vec3>(&cube, 100_000, in_cube);
+    check::<Vec3>(&cube, 40_000, in_cube);
     check::<Vec3A>(&cube, 5_000, in_cube);
-    check::<DVec3>(&cube, 100_000, in_cube);
+    check::<DVec3>(&cube, 40_000, in_cube);
     // The facets lie between a sphere of radius 0.79 and that of the vertices.
     let sphere = meshes::icosphere(0);
     let in_sphere = |p: [f64; 3]| {
         let square = p.iter().map(|x| x * x).sum::<f64>();
         if square < 0.62 { Some(true) } else { (square > 1.0).then_some(false) }
     };
-    check::<Vec3>(&sphere, 100_000, in_sphere);
+    check::<Vec3>(&sphere, 40_000, in_sphere);
     check::<Vec3A>(&sphere, 5_000, in_sphere);
-    check::<DVec3>(&sphere, 100_000, in_sphere);
+    check::<DVec3>(&sphere, 40_000, in_sphere);
 }
 
 #[test]

@@ -63,12 +63,16 @@ pub(crate) fn of_isect<V: Vector>() -> Vec<Contender> {
     vec![
         ray_triangle::<V, _>("triangle::moller_trumbore", Sound, moller_trumbore::intersect),
         ray_triangle::<V, _>("triangle::badouel", Sound, badouel::intersect),
+        ray_triangle::<V, _>("triangle::badouel::Prepared", Sound, |ray, triangle| {
+            badouel::Prepared::new(triangle).intersect(ray)
+        }),
         ray_triangle::<V, _>("triangle::segura", Sound, segura::intersect),
         ray_triangle::<V, _>("triangle::segura::detects", Sound, segura::detects),
         ray_triangle::<V, _>("triangle::watertight", Watertight, |ray, triangle| {
             watertight::intersect(&ShearedRay::new(ray), triangle)
         }),
         ray_triangle::<V, _>("triangle::exact", Exact, exact::intersect),
+        ray_triangle::<V, _>("triangle::exact::hits", Exact, exact::hits),
         ray_triangle::<V, _>("triangle::exact::refine", Refined, |ray, triangle| {
             exact::hits(ray, triangle).then(|| exact::refine(ray, triangle))
         }),
@@ -78,6 +82,9 @@ pub(crate) fn of_isect<V: Vector>() -> Vec<Contender> {
         ray_aabb::<V, _>("aabb::slab", Sound, aabb::slab::intersect),
         ray_aabb::<V, _>("aabb::slab::hits", Sound, aabb::slab::hits),
         ray_aabb::<V, _>("aabb::conservative", Conservative, aabb::conservative::hits),
+        ray_aabb::<V, _>("aabb::conservative::interval", Conservative, |ray, aabb| {
+            aabb::conservative::interval(ray, aabb).is_some()
+        }),
         ray_aabb::<V, _>("aabb::exact", Exact, aabb::exact::intersect),
         ray_aabb::<V, _>("aabb::exact::hits", Exact, aabb::exact::hits),
         ray_sphere::<V, _>("sphere::algebraic", Sound, sphere::algebraic::intersect),
