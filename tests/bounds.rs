@@ -2,7 +2,7 @@
 //!
 //! A hit must be one of the exact geometry moved by the bounds; a miss must be one of it as well.
 
-use isect::ray::aabb::{BoxRay, slab};
+use isect::ray::aabb::{BoxRay, exact, slab};
 use isect::ray::plane::{self, PlaneHit};
 use isect::{Plane, Scalar, Vector};
 
@@ -364,6 +364,66 @@ fn slabs() {
             name::<V>()
         );
         assert!(hits > 50_000 && misses > 50_000 && false_hits > 500 && false_misses > 500);
+    }
+    for_every_vector!(check);
+}
+
+/// The exact kernel's entry and exit are within 3.1u, or twice that where they are reported as equal, and on their faces.
+#[test]
+fn exact_boxes() {
+    fn check<V: Vector>() {
+        let relative = 3.1 * unit_roundoff::<V::Scalar>();
+        let least: f64 = (<V::Scalar as Scalar>::MIN_POSITIVE * V::Scalar::EPSILON).into();
+        let largest: f64 = V::Scalar::MAX.into();
+        let mut rng = fastrand::Rng::with_seed(SEED + 3);
+        let (mut hits, mut faces, mut beyond) = (0, 0, 0);
+        for _ in 0..300_000 {
+            let (ray_, min, max) = generators::ray_aabb(&mut rng);
+            let hit = exact::intersect(&BoxRay::new(&ray(&ray_)), &aabb::<V>(&min, &max));
+            let case = || format!("{} {ray_:?} {min:?} {max:?} {hit:?}", name::<V>());
+            assert_eq!(hit.is_some(), oracle::aabb(&ray_, min, max), "{}", case());
+            let Some(hit) = hit else { continue };
+            hits += 1;
+            let (enter, exit): (f64, f64) = (hit.t_enter.into(), hit.t_exit.into());
+            assert!(ray_.t_min <= enter && enter <= exit && exit <= ray_.t_max, "{}", case());
+            let relative = if enter == exit { 2.0 * relative } else { relative };
+            let around = |t: f64| {
+                if t.abs() >= largest {
+                    // Beyond the largest float, or as close to it; or unbounded.
+                    let least = largest * (1.0 - relative);
+                    return if t < 0.0 { (f64::NEG_INFINITY, -least) } else { (least, INFINITY) };
+                }
+                let error = relative * t.abs() + least;
+                (t - error, t + error)
+            };
+            let (low, high) = around(enter);
+            assert!(oracle::aabb_enter_in(&ray_, min, max, low, high), "{}", case());
+            let (low, high) = around(exit);
+            assert!(oracle::aabb_exit_in(&ray_, min, max, low, high), "{}", case());
+            for (t, face, clip) in
+                [(enter, hit.enter_face, ray_.t_min), (exit, hit.exit_face, ray_.t_max)]
+            {
+                beyond += u32::from(t.abs() == largest);
+                let Some(face) = face else {
+                    // Clipped; or unbounded.
+                    assert!(t == clip || t.is_infinite() || enter == exit, "{}", case());
+                    continue;
+                };
+                faces += 1;
+                let axis = face.axis();
+                let plane = if face.sign() < 0 { min[axis] } else { max[axis] };
+                let expected = (plane - ray_.origin[axis]) / ray_.direction[axis];
+                // As much again for what is computed here, in f64.
+                let error = 4.0 * (relative * t.abs() + least);
+                let is_there = (expected - t).abs() <= error || t.abs() == largest;
+                assert!(is_there, "{} {face:?} {expected}", case());
+            }
+        }
+        println!(
+            "{:<6} {hits} hits, {faces} faces, {beyond} ends beyond the largest float",
+            name::<V>()
+        );
+        assert!(hits > 50_000 && faces > 50_000);
     }
     for_every_vector!(check);
 }
