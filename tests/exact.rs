@@ -25,7 +25,7 @@ fn magnify<V: Vector>(rng: &mut fastrand::Rng) -> (f64, f64) {
     if rng.u8(..4) == 0 { (power(rng), power(rng)) } else { (1.0, 1.0) }
 }
 
-/// A ray and a triangle that the vector type holds exactly: of all magnitudes, some with mantissas beyond those of `f32`.
+/// A ray and a triangle that the vector type holds exactly: of all magnitudes.
 fn triangle_case<V: Vector>(rng: &mut fastrand::Rng) -> (oracle::Ray, [[f64; 3]; 3]) {
     let (mut ray, mut vertices) = generators::ray_triangle(rng);
     let (points, direction) = magnify::<V>(rng);
@@ -34,9 +34,17 @@ fn triangle_case<V: Vector>(rng: &mut fastrand::Rng) -> (oracle::Ray, [[f64; 3];
     ray.origin = scaled(ray.origin, points);
     ray.direction = scaled(ray.direction, direction);
     vertices = vertices.map(|v| scaled(v, points));
-    let t = |x: f64| if x.is_finite() { fits(x * points / direction) } else { x };
-    (ray.t_min, ray.t_max) = (t(ray.t_min), t(ray.t_max));
+    (ray.t_min, ray.t_max) = scaled_range::<V>(&ray, points, direction);
     (ray, vertices)
+}
+
+/// The range of a ray of which the points and the direction are multiplied. (One after the other: the quotient of the factors may
+/// be no float.)
+fn scaled_range<V: Vector>(ray: &oracle::Ray, points: f64, direction: f64) -> (f64, f64) {
+    let t = |x: f64| {
+        if x.is_finite() { exactly::<V>(exactly::<V>(x * points) / direction) } else { x }
+    };
+    (t(ray.t_min), t(ray.t_max))
 }
 
 /// The finite scalar of the vector type nearest to a double.
@@ -305,7 +313,7 @@ fn is_close(case: &oracle::Ray, v: &[[f64; 3]; 3], [t, u, w]: [f64; 3], smallest
     })
 }
 
-/// A box, or a triangle and a box, magnified as in [`triangle_case`].
+/// A point multiplied by a factor, to the nearest that the vector type holds; what is infinite or NaN stays so.
 fn scaled_exactly<V: Vector>(p: [f64; 3], by: f64) -> [f64; 3] {
     p.map(|x| if x.is_finite() { exactly::<V>(x * by) } else { x })
 }
@@ -347,9 +355,7 @@ fn box_hits_agree_with_the_oracle() {
             let (points, direction) = magnify::<V>(&mut rng);
             case.origin = scaled_exactly::<V>(case.origin, points);
             case.direction = scaled_exactly::<V>(case.direction, direction);
-            let [t_min, t_max, _] =
-                scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
-            (case.t_min, case.t_max) = (t_min, t_max);
+            (case.t_min, case.t_max) = scaled_range::<V>(&case, points, direction);
             let (mut min, mut max) =
                 (scaled_exactly::<V>(min, points), scaled_exactly::<V>(max, points));
             if rng.u8(..32) == 0 {
@@ -387,8 +393,7 @@ fn plane_verdicts_agree_with_the_oracle() {
             let (points, direction) = magnify::<V>(&mut rng);
             case.origin = scaled_exactly::<V>(case.origin, points);
             case.direction = scaled_exactly::<V>(case.direction, direction);
-            [case.t_min, case.t_max, _] =
-                scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
+            (case.t_min, case.t_max) = scaled_range::<V>(&case, points, direction);
             let offset = exactly::<V>(offset * points);
             let plane = Plane::<V> { normal: vector(normal), offset: scalar(offset) };
             let hit = plane::intersect(&ray(&case), &plane);
@@ -425,8 +430,7 @@ fn sphere_hits_agree_with_the_oracle() {
             let (points, direction) = magnify::<V>(&mut rng);
             case.origin = scaled_exactly::<V>(case.origin, points);
             case.direction = scaled_exactly::<V>(case.direction, direction);
-            [case.t_min, case.t_max, _] =
-                scaled_exactly::<V>([case.t_min, case.t_max, 0.0], points / direction);
+            (case.t_min, case.t_max) = scaled_range::<V>(&case, points, direction);
             let center = scaled_exactly::<V>(center, points);
             let radius = exactly::<V>(radius * points);
             let (ray, sphere) = (ray::<V>(&case), sphere_of::<V>(&center, radius));
