@@ -250,7 +250,7 @@ impl<T: Scalar> PlaneHit<T> {
         let Some(unit) = normalized(plane.normal) else {
             return Some((unprojected, V::INFINITY));
         };
-        let scale = plane.normal.abs().max_element().normalizer();
+        let scale = plane.normal.normalizer();
         let offset = plane.offset * scale;
         let above = |point: V| unit.dot(point) - offset;
         let unit2 = unit.dot(unit);
@@ -399,7 +399,7 @@ pub fn transform<V: Vector>(point: V, error: V, affine: &impl Affine<V>) -> (V, 
 fn normalized<V: Vector>(vector: V) -> Option<V> {
     let longest = vector.abs().max_element();
     let usable = vector.is_finite() && V::Scalar::ZERO < longest;
-    usable.then(|| vector * longest.normalizer())
+    usable.then(|| vector * vector.normalizer())
 }
 
 /// 1 + 16u, u = EPSILON/2: makes up for 15 roundings of positive terms.

@@ -487,11 +487,19 @@ pub trait Vector:
         Self::new(f(self.x()), f(self.y()), f(self.z()))
     }
 
+    /// [`Number::normalizer`] of the largest magnitude of a component.
+    #[doc(hidden)]
+    #[must_use]
+    #[inline(always)]
+    fn normalizer(self) -> Self::Scalar {
+        Coordinates::abs(self).max_element().normalizer()
+    }
+
     /// The Euclidean length, with no over- or underflow on the way.
     #[must_use]
     #[inline]
     fn length(self) -> Self::Scalar {
-        let scale = Coordinates::abs(self).max_element().normalizer();
+        let scale = self.normalizer();
         let unit = self * scale;
         unit.dot(unit).sqrt() / scale
     }

@@ -34,7 +34,7 @@ impl<V: Vector> Plane<V> {
     pub fn from_point_spans(point: V, vx: V, vy: V) -> Option<Self> {
         let mut normal = vx.cross(vy);
         if !Coordinates::abs(normal).max_element().is_mid_range() {
-            let unit = |v: V| v * Coordinates::abs(v).max_element().normalizer();
+            let unit = |v: V| v * v.normalizer();
             normal = unit(vx).cross(unit(vy));
         }
         Self::from_point_normal(point, normal)
@@ -66,7 +66,7 @@ impl<V: Vector> Plane<V> {
         if !self.is_valid() {
             return V::Scalar::NAN;
         }
-        let scale = Coordinates::abs(self.normal).max_element().normalizer();
+        let scale = self.normal.normalizer();
         let normal = self.normal * scale;
         (normal.dot(point) - self.offset * scale) / normal.length()
     }

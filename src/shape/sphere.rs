@@ -37,7 +37,7 @@ impl<V: Vector> Sphere<V> {
             outward = point * half - self.center * half;
         }
         // The length of a difference may over- or underflow, and so may its reciprocal.
-        let outward = outward * Coordinates::abs(outward).max_element().normalizer();
+        let outward = outward * outward.normalizer();
         let length = outward.dot(outward).sqrt();
         if length == V::Scalar::ZERO { V::ZERO } else { outward.divided(V::splat(length)) }
     }

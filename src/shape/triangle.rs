@@ -41,7 +41,7 @@ impl<V: Vector> Triangle<V> {
     #[must_use]
     pub fn area(&self) -> V::Scalar {
         let (edge1, edge2) = (self.v1 - self.v0, self.v2 - self.v0);
-        let [scale1, scale2] = [edge1, edge2].map(|e| e.abs().max_element().normalizer());
+        let [scale1, scale2] = [edge1, edge2].map(V::normalizer);
         let half = V::Scalar::ONE.lit(0.5);
         let area = (edge1 * scale1).cross(edge2 * scale2).length() * half;
         area.times_ratio(V::Scalar::ONE / scale1, scale2)

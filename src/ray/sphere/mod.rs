@@ -101,7 +101,7 @@ fn scaled<V: Vector>(
     if !f.is_finite() {
         (f, radius, by) = halved(one.lit(0.5));
     }
-    let t_scale = Coordinates::abs(ray.direction).max_element().normalizer();
+    let t_scale = ray.direction.normalizer();
     let scale = Coordinates::abs(f).max_element().max(radius).normalizer();
     let q = Quadratic::new(ray.direction * t_scale, f * scale, radius * scale);
     Some((q, t_scale, scale * by))

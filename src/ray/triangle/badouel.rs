@@ -148,7 +148,7 @@ impl<V: Vector> Prepared<V> {
         if !(ray.is_valid() && self.v0.is_finite() && self.normal.is_finite()) {
             return None;
         }
-        let t_scale = ray.direction.abs().max_element().normalizer();
+        let t_scale = ray.direction.normalizer();
         let mut solution = self.solve(&Ray { direction: ray.direction * t_scale, ..*ray });
         solution.t = solution.t * t_scale;
         let parallel = solution.determinant == V::Scalar::ZERO;

@@ -127,8 +127,7 @@ impl<V: Vector> Frame<V> {
     /// underflow; with the two factors, which cancel but in t.
     fn normalized(&self) -> (Self, V::Scalar, V::Scalar) {
         let longest = self.edge1.abs().max(self.edge2.abs()).max(self.offset.abs()).max_element();
-        let (scale, t_scale) =
-            (longest.normalizer(), self.direction.abs().max_element().normalizer());
+        let (scale, t_scale) = (longest.normalizer(), self.direction.normalizer());
         let large = longest.large_length();
         let frame = Self {
             direction: self.direction.times_powers(t_scale, large),

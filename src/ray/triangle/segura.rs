@@ -162,7 +162,7 @@ impl<T: Scalar> Extreme<T> {
         let corners = corners(ray, triangle);
         let [a0, a1, a2] = corners.map(Coordinates::abs);
         let scale = a0.max(a1.max(a2)).max_element().normalizer();
-        let t_scale = ray.direction.abs().max_element().normalizer();
+        let t_scale = ray.direction.normalizer();
         let large = scale.large_length();
         let corners = corners.map(|a| a.times_powers(scale, large));
         let volumes = Volumes::new(&corners, ray.direction * t_scale);
