@@ -43,6 +43,24 @@
 //! The recommended kernels, which are exact, hit the surface no more than exact arithmetic does. Others
 //! may, where the ray is within their own error bounds of it: the errors here leave no room for them.
 //!
+//! # How far
+//!
+//! At most 9 ulps of the shape's largest coordinate farther than the least that works: 13 from a sphere that floats
+//! cannot tell from a point. The least is that of each hit: the share of the way from p to its two origins, one on
+//! either side, from where on none of 1,000 rays hits the surface, be they in any direction, flat, along axes or towards
+//! vertices. Measured for thousands of hits on shapes of each kind, in `f32` and `f64`, as much farther are
+//!
+//! | shape | half of them | 99 % | all |
+//! |---|---|---|---|
+//! | triangle a tenth as large as its distance from zero | 1.1 | 2.5 | 4 |
+//! | triangle as large, not narrower than 1 to 8 | 2.9 | 6.5 | 9 |
+//! | triangle of any shape, coordinates of 10^±8 | 0.3 | 3.5 | 6 |
+//! | sphere, coordinates and radius of 10^±4 | 0.9 | 4 | 5 |
+//! | sphere with a radius of 32 to 300 roundings of its centre | 0.5 | 1.5 | 2 |
+//! | smaller sphere | 1.5 | 9 | 13 |
+//! | box | 0.1 | 0.5 | 0.5 |
+//! | plane, ulps of the point's largest coordinate | 0.9 | 7 | 7.5 |
+//!
 //! After M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, 3.9.5,
 //! "Robust Spawned Ray Origins". There, errors are bounded in advance, and the side of a flat ray is
 //! that of a rounded normal; here what can be computed of the errors is computed, the tilt of the

@@ -9,6 +9,7 @@ use isect::ray::plane::PlaneHit;
 use isect::ray::sphere::SphereHit;
 use isect::ray::triangle::TriangleHit;
 use isect::{Aabb, Affine, Face, Plane, Ray, Scalar, Sphere, Triangle, Vector, spawn};
+use num_bigint::BigInt;
 
 use crate::support::bounds::unit_roundoff;
 use crate::support::{
@@ -102,8 +103,44 @@ impl Tally {
 type Campaign = fn(&mut fastrand::Rng, &mut Tally, share: f64);
 
 /// A triangle of which every coordinate has a magnitude of 10^±8.
+fn wild_triangle<V: Vector>(rng: &mut fastrand::Rng) -> Triangle<V> {
+    [(); 3].map(|()| point(rng, 8.0)).into()
+}
+
+/// A sphere with a radius of 10^±4, the centre's coordinates likewise: some are points as far as floats can tell.
+fn wild_sphere<V: Vector>(rng: &mut fastrand::Rng) -> Sphere<V> {
+    let radius = magnitude(rng, 4.0).abs();
+    Sphere::new(point(rng, 4.0), scalar(radius))
+}
+
+/// A sphere with a radius of only 32 to 300 roundings of its centre: few floats are on it, and none very near.
+fn grain<V: Vector>(rng: &mut fastrand::Rng) -> Sphere<V> {
+    let center = uniform(rng);
+    let largest = center.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let roundings = 32.0 * 10_f64.powf(rng.f64());
+    let radius = roundings * unit_roundoff::<V::Scalar>() * largest;
+    Sphere::new(vector(center), scalar(radius))
+}
+
+/// A box between coordinates of 10^±8, or zero; some are flat.
+fn wild_box<V: Vector>(rng: &mut fastrand::Rng) -> Aabb<V> {
+    let mut corner =
+        || vector::<V>([(); 3].map(|()| if rng.u8(..4) == 0 { 0.0 } else { magnitude(rng, 8.0) }));
+    Aabb::from_points([corner(), corner()])
+}
+
+/// A plane with a normal and a point of 10^±8.
+fn wild_plane<V: Vector>(rng: &mut fastrand::Rng) -> Plane<V> {
+    let normal = match rng.u8(..4) {
+        0 => vector([0.0, magnitude(rng, 8.0), 0.0]),
+        _ => point::<V>(rng, 8.0),
+    };
+    let through = if rng.u8(..4) == 0 { V::ZERO } else { point(rng, 8.0) };
+    Plane::from_point_normal(through, normal).expect("the normal is not zero")
+}
+
 fn leave_triangle<V: Vector>(rng: &mut fastrand::Rng, tally: &mut Tally, share: f64) {
-    let triangle = Triangle::<V>::from([(); 3].map(|()| point(rng, 8.0)));
+    let triangle = wild_triangle::<V>(rng);
     leave_from(rng, tally, share, &triangle, 8.0, |rng| {
         let (u, v) = (rng.f64(), rng.f64());
         if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] }
@@ -159,20 +196,14 @@ fn leave_from<V: Vector>(
     }
 }
 
-/// A sphere with a radius of 10^±4, the centre's coordinates likewise: some are points as far as floats can tell.
 fn leave_sphere<V: Vector>(rng: &mut fastrand::Rng, tally: &mut Tally, share: f64) {
-    let radius = magnitude(rng, 4.0).abs();
-    let sphere = Sphere::new(point::<V>(rng, 4.0), scalar(radius));
+    let sphere = wild_sphere::<V>(rng);
     leave_ball(rng, tally, share, &sphere);
 }
 
-/// A sphere with a radius of only 32 to 300 roundings of its centre: few floats are on it, and none very near.
 fn leave_grain<V: Vector>(rng: &mut fastrand::Rng, tally: &mut Tally, share: f64) {
-    let center = uniform(rng);
-    let largest = center.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let roundings = 32.0 * 10_f64.powf(rng.f64());
-    let radius = roundings * unit_roundoff::<V::Scalar>() * largest;
-    leave_ball(rng, tally, share, &Sphere::new(vector::<V>(center), scalar(radius)));
+    let sphere = grain::<V>(rng);
+    leave_ball(rng, tally, share, &sphere);
 }
 
 fn leave_ball<V: Vector>(
@@ -219,11 +250,8 @@ fn points_inward<V: Vector>(normal: V, direction: V) -> bool {
     oracle::plane(&ray, origin, 0.0) == oracle::PlaneVerdict::At
 }
 
-/// A box between coordinates of 10^±8, or zero; some are flat.
 fn leave_box<V: Vector>(rng: &mut fastrand::Rng, tally: &mut Tally, _: f64) {
-    let mut corner =
-        || vector::<V>([(); 3].map(|()| if rng.u8(..4) == 0 { 0.0 } else { magnitude(rng, 8.0) }));
-    let aabb = Aabb::from_points([corner(), corner()]);
+    let aabb = wild_box::<V>(rng);
     let mut left = 0;
     while left < RAYS {
         let (origin, weights) = (point::<V>(rng, 8.0), [(); 3].map(|()| rng.f64()));
@@ -259,14 +287,9 @@ fn leave_box<V: Vector>(rng: &mut fastrand::Rng, tally: &mut Tally, _: f64) {
     }
 }
 
-/// A plane with a normal and a point of 10^±8.
 fn leave_plane<V: Vector>(rng: &mut fastrand::Rng, tally: &mut Tally, share: f64) {
-    let normal = match rng.u8(..4) {
-        0 => vector([0.0, magnitude(rng, 8.0), 0.0]),
-        _ => point::<V>(rng, 8.0),
-    };
-    let through = if rng.u8(..4) == 0 { V::ZERO } else { point(rng, 8.0) };
-    let plane = Plane::from_point_normal(through, normal).expect("the normal is not zero");
+    let plane = wild_plane::<V>(rng);
+    let normal = plane.normal;
     let mut left = 0;
     while left < RAYS {
         let ray = Ray::new(point::<V>(rng, 8.0), direction(rng));
@@ -340,6 +363,22 @@ fn a_fraction_of_the_error_is_not_enough() {
     for_every_vector!(check);
 }
 
+/// A triangle of so large a size, about a point of the cube from −1 to 1, and not narrower than 1 to 8: the offset grows with
+/// the aspect.
+fn triangle_of_size<V: Vector>(rng: &mut fastrand::Rng, size: f64) -> Triangle<V> {
+    loop {
+        let [center, x, y, z] = [(); 4].map(|()| uniform(rng));
+        let corner = |c: [f64; 3]| vector(std::array::from_fn(|i| center[i] + size * c[i]));
+        let triangle = Triangle::<V>::from([x, y, z].map(corner));
+        let edges =
+            [triangle.v1 - triangle.v0, triangle.v2 - triangle.v1, triangle.v0 - triangle.v2];
+        let longest: f64 = edges.iter().map(|e| e.length().into()).fold(0.0, f64::max);
+        if 2.0 * triangle.area().into() >= longest * longest / 8.0 {
+            return triangle;
+        }
+    }
+}
+
 /// The documentation's numbers, rounded up: ulps of the largest coordinate, by the triangle's size against its distance.
 #[test]
 fn offsets_are_a_few_ulps() {
@@ -348,20 +387,8 @@ fn offsets_are_a_few_ulps() {
         for (size, median, most) in [(1.0, 3.0, 8.0), (0.1, 2.0, 4.0), (0.01, 2.0, 4.0)] {
             let mut offsets = Vec::new();
             while offsets.len() < 2_000 {
-                let [center, origin, x, y, z] = [(); 5].map(|()| uniform(&mut rng));
-                let corner = |c: [f64; 3]| vector(std::array::from_fn(|i| center[i] + size * c[i]));
-                let triangle = Triangle::<V>::from([x, y, z].map(corner));
-                // Not narrower than 1 to 8: the offset grows with the aspect.
-                let edges = [
-                    triangle.v1 - triangle.v0,
-                    triangle.v2 - triangle.v1,
-                    triangle.v0 - triangle.v2,
-                ];
-                let longest: f64 = edges.iter().map(|e| e.length().into()).fold(0.0, f64::max);
-                if 2.0 * triangle.area().into() < longest * longest / 8.0 {
-                    continue;
-                }
-                let origin = vector::<V>(origin.map(|x| 3.0 * x));
+                let triangle = triangle_of_size::<V>(&mut rng, size);
+                let origin = vector::<V>(uniform(&mut rng).map(|x| 3.0 * x));
                 let aim = triangle.at(scalar(0.3), scalar(0.4));
                 let Some(hit) = Ray::new(origin, aim - origin).intersect(&triangle) else {
                     continue;
@@ -387,22 +414,43 @@ fn uniform(rng: &mut fastrand::Rng) -> [f64; 3] {
     [(); 3].map(|()| 2.0 * rng.f64() - 1.0)
 }
 
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
+/// A number times 2^400, of which it is to be an integer.
+fn exact(x: f64) -> BigInt {
+    let bits = x.abs().to_bits();
+    let (exponent, fraction) = (bits >> 52, bits & ((1 << 52) - 1));
+    assert!(exponent == 0 && fraction == 0 || (675..2047).contains(&exponent), "{x}");
+    let magnitude = match exponent {
+        0 => BigInt::ZERO,
+        _ => BigInt::from(fraction | 1 << 52) << (exponent - 675),
+    };
+    if x < 0.0 { -magnitude } else { magnitude }
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
+/// The components times 2^400.
+fn exact_array<V: Vector>(v: V) -> [BigInt; 3] {
+    array(v).map(exact)
 }
 
-/// In double precision, where all of it is exact but for 2⁻⁵⁰ of the magnitudes that the single-precision bounds take
-/// 2⁻²⁴ of, and more: nothing to allow for but the triangle's tangential bound, which is met but for its last bits.
+fn exact_sub(a: &[BigInt; 3], b: &[BigInt; 3]) -> [BigInt; 3] {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+fn exact_dot(a: &[BigInt; 3], b: &[BigInt; 3]) -> BigInt {
+    (0..3).map(|i| &a[i] * &b[i]).sum()
+}
+
+fn magnitudes(v: &[BigInt; 3]) -> [BigInt; 3] {
+    v.each_ref().map(|x| x.magnitude().clone().into())
+}
+
+/// Exactly, in integers: both sides of each inequality have as many factors of 2^400.
 #[test]
 fn errors_are_bounds() {
     fn check<V: Vector>() {
         let mut rng = fastrand::Rng::with_seed(SEED + 2);
         let mut counts = [0; 3];
-        for _ in 0..100_000 {
+        let one = exact(1.0);
+        for _ in 0..50_000 {
             let ray = Ray::new(point::<V>(&mut rng, 4.0), direction(&mut rng));
 
             let triangle = Triangle::<V>::from([(); 3].map(|()| point(&mut rng, 4.0)));
@@ -410,34 +458,47 @@ fn errors_are_bounds() {
             if let Some(hit) = (Ray { direction: aim, ..ray }).intersect(&triangle) {
                 counts[0] += 1;
                 let (p, error) = hit.point_and_error(&triangle);
-                let (p, error, [v0, v1, v2]) = (array(p), array(error), vertices(&triangle));
-                let (e1, e2) = (sub(v1, v0), sub(v2, v0));
+                let (p, error) = (exact_array(p), exact_array(error));
+                let vertices = <[V; 3]>::from(triangle).map(exact_array);
+                let [e1, e2] = [1, 2].map(|i| exact_sub(&vertices[i], &vertices[0]));
+                let (u, v) = (exact(hit.u.into()), exact(hit.v.into()));
                 for i in 0..3 {
-                    let exact = v0[i] + (hit.u.into() * e1[i] + hit.v.into() * e2[i]);
-                    let slack = 1.0 + 2_f64.powi(-20);
-                    assert!((exact - p[i]).abs() <= error[i] * slack, "{triangle:?} {hit:?}");
+                    let off = (&vertices[0][i] - &p[i]) * &one + &u * &e1[i] + &v * &e2[i];
+                    assert!(
+                        *off.magnitude() <= *(&error[i] * &one).magnitude(),
+                        "{triangle:?} {hit:?}"
+                    );
                 }
-                let normal = array(triangle.normal());
-                let reach = dot(normal.map(f64::abs), error);
-                for vertex in [v0, v1, v2] {
-                    assert!(dot(normal, sub(vertex, p)).abs() <= reach, "{triangle:?} {hit:?}");
+                let normal = exact_array(triangle.normal());
+                let reach = exact_dot(&magnitudes(&normal), &error);
+                for vertex in &vertices {
+                    let distance = exact_dot(&normal, &exact_sub(vertex, &p));
+                    assert!(distance.magnitude() <= reach.magnitude(), "{triangle:?} {hit:?}");
                 }
             }
 
             let radius = magnitude(&mut rng, 4.0).abs();
             let sphere = Sphere::new(point::<V>(&mut rng, 4.0), scalar(radius));
-            let aim = sphere.center - ray.origin;
-            if let Some(hit) = (Ray { direction: aim, ..ray }).intersect(&sphere) {
+            let ray_at = Ray { direction: sphere.center - ray.origin, ..ray };
+            if let Some(hit) = ray_at.intersect(&sphere) {
                 counts[1] += 1;
-                let ray = Ray { direction: aim, ..ray };
-                let (p, error) = hit.point_and_error(&ray, &sphere);
-                let arm = sub(array(p), array(sphere.center));
-                let (length, radius) = (dot(arm, arm).sqrt(), sphere.radius.into());
-                for (i, error) in array(error).into_iter().enumerate() {
-                    // The nearest point of the sphere, or if it is the centre, any.
-                    let off =
-                        if length > 0.0 { (length - radius) * arm[i] / length } else { radius };
-                    assert!(off.abs() <= error, "{ray:?} {sphere:?} {hit:?}");
+                let (p, error) = hit.point_and_error(&ray_at, &sphere);
+                let (arm, error) =
+                    (exact_sub(&exact_array(p), &exact_array(sphere.center)), exact_array(error));
+                let radius = exact(sphere.radius.into());
+                let square = exact_dot(&arm, &arm);
+                for (m, error) in arm.iter().zip(&error) {
+                    if square == BigInt::ZERO {
+                        // The nearest point of the sphere is any.
+                        assert!(radius <= *error, "{ray_at:?} {sphere:?} {hit:?}");
+                        continue;
+                    }
+                    // ||m| − r|·|m_i| ≤ δ·|m|, squared, and once more: (|m|² + r²)·m_i² − δ²·|m|² ≤ 2·r·m_i²·|m|.
+                    let excess = (&square + &radius * &radius) * m * m - error * error * &square;
+                    let half = &radius * m * m;
+                    let is_within =
+                        excess <= BigInt::ZERO || &excess * &excess <= &half * &half * &square * 4;
+                    assert!(is_within, "{ray_at:?} {sphere:?} {hit:?}");
                 }
             }
 
@@ -446,19 +507,21 @@ fn errors_are_bounds() {
             if let Some(hit @ PlaneHit::At(_)) = ray.intersect(&plane) {
                 counts[2] += 1;
                 let (p, error) = hit.point_and_error(&ray, &plane).expect("not contained");
-                let (p, error, n) = (array(p), array(error), array(normal));
-                let above = dot(n, p) - plane.offset.into();
-                assert!(above.abs() <= dot(n.map(f64::abs), error), "{ray:?} {plane:?} {hit:?}");
+                let (p, error, n) = (exact_array(p), exact_array(error), exact_array(normal));
+                let above = exact_dot(&n, &p) - exact(plane.offset.into()) * &one;
+                let reach = exact_dot(&magnitudes(&n), &error);
+                assert!(above.magnitude() <= reach.magnitude(), "{ray:?} {plane:?} {hit:?}");
+                let square = exact_dot(&n, &n);
                 for i in 0..3 {
-                    assert!((above * n[i] / dot(n, n)).abs() <= error[i]);
+                    let off = &above * &n[i];
+                    assert!(*off.magnitude() <= *(&error[i] * &square).magnitude());
                 }
             }
         }
         println!("{:<6} {counts:?} triangles, spheres, planes", name::<V>());
-        assert!(counts.iter().all(|&n| n > 30_000), "{counts:?}");
+        assert!(counts.iter().all(|&n| n > 15_000), "{counts:?}");
     }
-    check::<Vec3>();
-    check::<Vec3A>();
+    for_every_vector!(check);
 }
 
 /// Points within the error, its corners among them, have images within the image's error. In double precision, as above:
@@ -569,6 +632,46 @@ impl<V: Vector> Shape<V> {
         }
     }
 
+    /// A direction to leave by: over what there is of a triangle, or as from any surface.
+    fn departure(&self, rng: &mut fastrand::Rng, normal: V, origin: V) -> V {
+        match self {
+            Self::Triangle(Triangle { v0, v1, v2 }) if rng.bool() => {
+                // To a vertex, or as close to one as 10⁻⁸ of an edge.
+                let corners =
+                    [[*v0, *v1, *v2], [*v1, *v2, *v0], [*v2, *v0, *v1]].map(Triangle::from);
+                let [u, v] =
+                    [(); 2].map(|()| if rng.bool() { 0.0 } else { 10_f64.powf(-8.0 * rng.f64()) });
+                corners[rng.usize(..3)].at(scalar(u), scalar(v)) - origin
+            }
+            _ => departure(rng, normal),
+        }
+    }
+
+    /// Whether a ray from a hit meets the surface that it leaves.
+    fn is_hit_again(&self, ray: &Ray<V>, [point, error, normal]: [V; 3], is_outward: bool) -> bool {
+        match self {
+            // From inside, there is the far side.
+            Self::Sphere(shape) if !is_outward && error.max_element() < shape.radius => {
+                ray.intersect(shape).is_none_or(|hit| !hit.leaving)
+            }
+            Self::Box(_) if !is_outward => normal.dot(ray.origin - point) >= V::Scalar::ZERO,
+            _ => self.is_hit(ray),
+        }
+    }
+
+    /// The largest coordinate of the shape; of a plane, that of the point.
+    fn largest(&self, point: V) -> f64 {
+        let points = match self {
+            Self::Triangle(shape) => vec![shape.v0, shape.v1, shape.v2],
+            Self::Sphere(Sphere { center, radius }) => {
+                vec![*center + V::splat(*radius), *center - V::splat(*radius)]
+            }
+            Self::Box(shape) => vec![shape.min, shape.max],
+            Self::Plane(_) => vec![point],
+        };
+        points.iter().map(|p| p.abs().max_element().into()).fold(0.0, f64::max)
+    }
+
     fn is_hit_exactly(&self, ray: &Ray<V>) -> bool {
         let ray = oracle_ray(ray);
         match self {
@@ -624,6 +727,124 @@ fn segments_hit_neither_end_but_what_is_between() {
         assert_eq!((occluded, exact), (tally.rays, tally.rays));
     }
     for_every_vector!(check);
+}
+
+/// Hits of one kind of shape, and by how many ulps their origins may be farther than needed: the median, 99 %, all.
+struct Kind<V: Vector> {
+    name: &'static str,
+    shape: fn(&mut fastrand::Rng) -> Shape<V>,
+    /// Rays to the shape start at coordinates of 10^±exponent.
+    exponent: f64,
+    limits: [f64; 3],
+}
+
+impl<V: Vector> Kind<V> {
+    const fn new(
+        name: &'static str,
+        exponent: f64,
+        limits: [f64; 3],
+        shape: fn(&mut fastrand::Rng) -> Shape<V>,
+    ) -> Self {
+        Self { name, shape, exponent, limits }
+    }
+
+    /// In the order of the documentation's table.
+    const ALL: [Self; 8] = [
+        Self::new("small triangles", 0.5, [1.1, 2.5, 4.0], |rng| {
+            Shape::Triangle(triangle_of_size(rng, 0.1))
+        }),
+        Self::new("large triangles", 0.5, [2.9, 6.5, 9.0], |rng| {
+            Shape::Triangle(triangle_of_size(rng, 1.0))
+        }),
+        Self::new("any triangles", 8.0, [0.3, 3.5, 6.0], |rng| Shape::Triangle(wild_triangle(rng))),
+        Self::new("spheres", 4.0, [0.9, 4.0, 5.0], |rng| {
+            loop {
+                let sphere = wild_sphere(rng);
+                if !is_too_small(&sphere) {
+                    return Shape::Sphere(sphere);
+                }
+            }
+        }),
+        Self::new("grains", 4.0, [0.5, 1.5, 2.0], |rng| Shape::Sphere(grain(rng))),
+        Self::new("specks", 4.0, [1.5, 9.0, 13.0], |rng| {
+            let Sphere { center, radius } = grain::<V>(rng);
+            Shape::Sphere(Sphere::new(center, radius * scalar(rng.f64() / 10.0)))
+        }),
+        Self::new("boxes", 8.0, [0.1, 0.5, 0.5], |rng| Shape::Box(wild_box(rng))),
+        Self::new("planes", 8.0, [0.9, 7.0, 7.5], |rng| Shape::Plane(wild_plane(rng))),
+    ];
+}
+
+/// Whether floats may not tell the sphere from a point.
+fn is_too_small<V: Vector>(sphere: &Sphere<V>) -> bool {
+    let largest: f64 = (sphere.center.abs() + V::splat(sphere.radius)).max_element().into();
+    sphere.radius.into() < 32.0 * unit_roundoff::<V::Scalar>() * largest
+}
+
+/// By how many ulps of the largest coordinate origins are farther from a hit than the least that works: than the
+/// nearest on the way there, to 1/256 of it, from which no ray hits the surface, be it to the one side or the other.
+fn excess<V: Vector>(rng: &mut fastrand::Rng, shape: &Shape<V>, hit: [V; 3]) -> f64 {
+    let [point, error, normal] = hit;
+    let away = |is_outward: bool| {
+        let away = if is_outward { normal } else { -normal };
+        spawn::offset_origin(point, error, normal, away) - point
+    };
+    let [inside, outside] = [away(false), away(true)];
+    let seed = rng.u64(..);
+    let works = |share: f64| {
+        let mut rng = fastrand::Rng::with_seed(seed);
+        (0..RAYS).all(|_| {
+            let is_outward = rng.bool();
+            let way = if is_outward { outside } else { inside };
+            let origin = point + way * scalar(share);
+            let leaving = shape.departure(&mut rng, normal, origin);
+            let is_inward = points_inward(normal, leaving);
+            let leaving = if is_inward == is_outward { -leaving } else { leaving };
+            !shape.is_hit_again(&Ray::new(origin, leaving), hit, is_outward)
+        })
+    };
+    assert!(works(1.0), "{}: {hit:?}", name::<V>());
+    let (mut fails, mut least) = (0.0, if works(0.0) { 0.0 } else { 1.0 });
+    while fails + 1.0 / 256.0 < least {
+        let middle = f64::midpoint(fails, least);
+        *if works(middle) { &mut least } else { &mut fails } = middle;
+    }
+    let [inside, outside]: [f64; 2] = [inside, outside].map(|way| way.length().into());
+    let ulp = 2.0 * unit_roundoff::<V::Scalar>() * shape.largest(point);
+    (1.0 - least) * inside.max(outside) / ulp
+}
+
+/// The documentation's table, each number rounded up.
+fn check_excesses<V: Vector>(hits: usize) {
+    for kind in Kind::<V>::ALL {
+        let mut rng = fastrand::Rng::with_seed(SEED + 8);
+        let mut excesses = Vec::new();
+        while excesses.len() < hits {
+            let shape = (kind.shape)(&mut rng);
+            let eye = point(&mut rng, kind.exponent);
+            // A point at the centre of a sphere has no side.
+            let hit = shape.surface(&mut rng, eye).filter(|[_, _, normal]| *normal != V::ZERO);
+            if let Some(hit) = hit {
+                excesses.push(excess(&mut rng, &shape, hit));
+            }
+        }
+        excesses.sort_by(f64::total_cmp);
+        let found = [hits / 2, hits * 99 / 100, hits - 1].map(|index| excesses[index]);
+        println!("{:<6} {:<16} {found:.2?} ulps too far, of {hits} hits", name::<V>(), kind.name);
+        let is_within = found.iter().zip(kind.limits).all(|(found, limit)| *found <= limit);
+        assert!(is_within, "{} {}: {found:?}", name::<V>(), kind.name);
+    }
+}
+
+#[test]
+fn an_origin_is_hardly_farther_than_the_least_that_works() {
+    for_every_vector!(check_excesses, 100);
+}
+
+#[test]
+#[ignore = "minutes: 24,000 hits for each vector type"]
+fn an_origin_is_hardly_farther_than_the_least_that_works_at_full_scale() {
+    for_every_vector!(check_excesses, 3_000);
 }
 
 /// Both ends on one triangle, or on the two halves of a quadrilateral that is flat but for rounding.
