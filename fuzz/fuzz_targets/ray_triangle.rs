@@ -60,9 +60,12 @@ fn check<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, is_integral: bool) -> 
     (hits, detected)
 }
 
-/// The exact verdict is that of big integers, and a refined hit is within an ulp.
+/// The exact verdict is that of big integers, a refined hit is within an ulp, and a crossing is one of a triangle that is
+/// touched, in the right direction.
 fn check_exact<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) {
     let expected = verdict::ray_triangle(ray, triangle);
+    let (exact_ray, vertices) = (oracle::Ray::from(ray), shapes::vertices(triangle));
+    let front = oracle::triangle_front(&exact_ray, vertices);
     assert_eq!(exact::hits(ray, triangle), expected.hits(), "exact");
     let hit = exact::intersect(ray, triangle);
     assert_eq!(hit.is_some(), expected.hits());
@@ -84,11 +87,46 @@ fn check_exact<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) {
     };
     assert!(is_agreed, "exact: not {expected:?}");
     if expected.hits() {
-        let t = exact::refine(ray, triangle).t;
-        assert_in_range("refine", t, ray);
-        let (low, high) = (t.next_down().into(), t.next_up().into());
-        let within = oracle::triangle_t_in(&ray.into(), shapes::vertices(triangle), low, high);
-        assert!(within != Some(false), "refine: t = {t:?}");
+        let hit = exact::refine(ray, triangle);
+        assert_in_range("refine", hit.t, ray);
+        let questions = [oracle::triangle_t_in, oracle::triangle_u_in, oracle::triangle_v_in];
+        for (x, is_in) in [hit.t, hit.u, hit.v].into_iter().zip(questions) {
+            let within = is_in(&exact_ray, vertices, x.next_down().into(), x.next_up().into());
+            assert!(within != Some(false), "refine: {hit:?}");
+        }
+        assert_eq!(hit.front, front == Some(true), "refine: {hit:?}");
+    }
+    check_crossing(ray, triangle, expected, front);
+}
+
+/// What is touched inside, and not at an end of the range, is crossed; what is not touched, or only along it, is not.
+fn check_crossing<V: Vector>(
+    ray: &Ray<V>,
+    triangle: &Triangle<V>,
+    expected: TriangleVerdict,
+    front: Option<bool>,
+) {
+    let crossing = exact::crosses(ray, triangle);
+    if crossing.is_some() {
+        assert!(expected.hits(), "crosses: {expected:?}");
+        assert_eq!(crossing, front, "crosses");
+    }
+    let at_end = |t: V::Scalar| {
+        let end = ray.with_range(t, t);
+        t.is_finite() && verdict::ray_triangle(&end, triangle).hits()
+    };
+    if expected == TriangleVerdict::Interior && !at_end(ray.t_min) && !at_end(ray.t_max) {
+        assert_eq!(crossing, front, "crosses");
+    }
+    // Backward the line is crossed the other way; two ranges that meet at a t share no crossing and lose none.
+    let infinity = V::Scalar::INFINITY;
+    let crossing_in = |t_min, t_max| exact::crosses(&ray.with_range(t_min, t_max), triangle);
+    let whole = crossing_in(-infinity, infinity);
+    let back = Ray { direction: -ray.direction, ..ray.with_range(-infinity, infinity) };
+    assert_eq!(exact::crosses(&back, triangle), whole.map(|front| !front), "crosses");
+    if ray.t_min.is_finite() {
+        let (before, after) = (crossing_in(-infinity, ray.t_min), crossing_in(ray.t_min, infinity));
+        assert_eq!(before.xor(after), whole, "crosses: {before:?} {after:?}");
     }
 }
 

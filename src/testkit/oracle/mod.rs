@@ -17,7 +17,9 @@ mod triangle_aabb;
 pub use aabb::{aabb, aabb_enter_in, aabb_exit_in, aabb_if_moved};
 pub use plane::{PlaneVerdict, plane, plane_side};
 pub use sphere::{sphere, sphere_side};
-pub use triangle::{TriangleVerdict, triangle, triangle_t_in, triangle_u_in, triangle_v_in};
+pub use triangle::{
+    TriangleVerdict, triangle, triangle_front, triangle_t_in, triangle_u_in, triangle_v_in,
+};
 pub use triangle_aabb::{triangle_aabb_apart, triangle_aabb_clip, triangle_aabb_sat};
 
 use num_bigint::BigInt;

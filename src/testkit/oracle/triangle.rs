@@ -65,6 +65,21 @@ pub fn triangle_v_in(ray: &Ray, vertices: [[f64; 3]; 3], lo: f64, hi: f64) -> Op
     coordinate_in(ray, vertices, Coordinate::V, lo, hi)
 }
 
+/// Whether the line crosses the triangle's plane against the normal, so that the front is seen; `None` where it does not cross it.
+#[must_use]
+pub fn triangle_front(ray: &Ray, vertices: [[f64; 3]; 3]) -> Option<bool> {
+    if !ray.has_line() || !is_finite(&vertices) {
+        return None;
+    }
+    let frame = Frame::new(ray, vertices);
+    let sign = if fits_i128(bits(&frame, 0)) {
+        Integer::signum(&Case::<i128>::new(&frame, vertices).denominator())
+    } else {
+        Integer::signum(&Case::<BigInt>::new(&frame, vertices).denominator())
+    };
+    (sign != 0).then_some(sign < 0)
+}
+
 #[derive(Clone, Copy, PartialEq)]
 enum Coordinate {
     T,
@@ -324,6 +339,19 @@ mod tests {
         assert_eq!(triangle_v_in(&slanted, TRIANGLE, -INF, 0.5), Some(true));
         assert_eq!(triangle_v_in(&slanted, TRIANGLE, f64::NAN, 0.5), Some(false));
         assert_eq!(triangle_v_in(&ray([0.0; 3], [1.0, 0.0, 0.0]), TRIANGLE, -INF, INF), None);
+    }
+
+    #[test]
+    fn a_triangle_has_a_front() {
+        let [a, b, c] = TRIANGLE;
+        let slanted = ray([9.0, 9.0, -2.0], [7.0, 0.0, -5e-324]);
+        assert_eq!(triangle_front(&slanted, [a, b, c]), Some(true));
+        assert_eq!(triangle_front(&slanted, [a, c, b]), Some(false));
+        assert_eq!(triangle_front(&slanted.reversed(), [a, b, c]), Some(false));
+        assert_eq!(triangle_front(&slanted, [a, b, b]), None);
+        assert_eq!(triangle_front(&ray([0.0; 3], [7.0, 1.0, 0.0]), TRIANGLE), None);
+        assert_eq!(triangle_front(&ray([0.0; 3], [0.0; 3]), TRIANGLE), None);
+        assert_eq!(triangle_front(&slanted, [a, b, [f64::NAN; 3]]), None);
     }
 
     #[test]
