@@ -169,6 +169,7 @@ fn crossings_of_closed_meshes_have_the_right_parity() {
     fn check<V: Vector>(
         mesh: &meshes::Mesh,
         cases: u32,
+        point: impl Fn(&mut fastrand::Rng) -> [f64; 3],
         is_inside: impl Fn([f64; 3]) -> Option<bool>,
     ) {
         assert!(mesh.is_closed());
@@ -176,9 +177,6 @@ fn crossings_of_closed_meshes_have_the_right_parity() {
         let mut rng = fastrand::Rng::with_seed(SEED + 1);
         let (mut inside, mut on_edges) = (0_u32, 0_u32);
         for _ in 0..cases {
-            let point = |rng: &mut fastrand::Rng| {
-                [(); 3].map(|()| generators::single(f64::from(rng.i32(-6..=10)) / 4.0))
-            };
             let face = mesh.faces[rng.usize(..mesh.faces.len())];
             let [a, b, _] = face.map(|k| mesh.vertices[k as usize]);
             let mut origin = point(&mut rng);
@@ -214,27 +212,55 @@ fn crossings_of_closed_meshes_have_the_right_parity() {
             if let Some(expected) = is_inside(origin) {
                 assert_eq!(from_origin % 2 == 1, expected, "{} {ray:?}", name::<V>());
             }
+            // So many the other way as well, and across.
+            let across = [direction[1] + 0.5, -direction[2] - 1.5, direction[0] - 0.25].map(scalar);
+            for other in [-ray.direction, V::new(across[0], across[1], across[2])] {
+                let other = Ray { direction: other, ..ray };
+                let crossed = triangles.iter().filter(|t| exact::crosses(&other, t).is_some());
+                assert_eq!(crossed.count() % 2, from_origin as usize % 2, "{other:?}");
+            }
             inside += from_origin % 2;
             on_edges += u32::from(touched > 0);
         }
         println!("{:<6} {cases} rays, {inside} from inside, {on_edges} on edges", name::<V>());
         assert!(inside > cases / 100 && on_edges > cases / 3, "{inside} {on_edges}");
     }
+    let quarters = |rng: &mut fastrand::Rng| [(); 3].map(|()| f64::from(rng.i32(-6..=10)) / 4.0);
     let cube = meshes::lattice_cube(2);
     // An origin on the surface is moved towards positive x, y and z.
     let in_cube = |p: [f64; 3]| Some(p.iter().all(|x| (0.0..2.0).contains(x)));
-    check::<Vec3>(&cube, 40_000, in_cube);
-    check::<Vec3A>(&cube, 5_000, in_cube);
-    check::<DVec3>(&cube, 40_000, in_cube);
+    check::<Vec3>(&cube, 40_000, quarters, in_cube);
+    check::<Vec3A>(&cube, 5_000, quarters, in_cube);
+    check::<DVec3>(&cube, 40_000, quarters, in_cube);
     // The facets lie between a sphere of radius 0.79 and that of the vertices.
     let sphere = meshes::icosphere(0);
     let in_sphere = |p: [f64; 3]| {
         let square = p.iter().map(|x| x * x).sum::<f64>();
         if square < 0.62 { Some(true) } else { (square > 1.0).then_some(false) }
     };
-    check::<Vec3>(&sphere, 40_000, in_sphere);
-    check::<Vec3A>(&sphere, 5_000, in_sphere);
-    check::<DVec3>(&sphere, 40_000, in_sphere);
+    check::<Vec3>(&sphere, 40_000, quarters, in_sphere);
+    check::<Vec3A>(&sphere, 5_000, quarters, in_sphere);
+    check::<DVec3>(&sphere, 40_000, quarters, in_sphere);
+    // Finer ones on a lattice of integers, where rays go through vertices exactly, near and far; some triangles of the
+    // bunny have no area there.
+    let bunny = meshes::parse_obj(include_str!("../examples/tracer/bunny.obj"));
+    for (mesh, cases) in [(meshes::icosphere(3), 3_000), (bunny, 1_000)] {
+        let bound = |f: fn(f64, f64) -> f64| {
+            [0, 1, 2].map(|k| mesh.vertices.iter().map(|v| v[k]).reduce(f).expect("vertices"))
+        };
+        let (min, max) = (bound(f64::min), bound(f64::max));
+        let size = (0..3).map(|k| max[k] - min[k]).fold(0.0, f64::max);
+        for far in [0.0, 1_048_576.0] {
+            let lattice = |p: &[f64; 3]| {
+                std::array::from_fn(|k| ((p[k] - min[k]) / size * 1_000.0).round() + far)
+            };
+            let vertices = mesh.vertices.iter().map(lattice).collect();
+            let mesh = meshes::Mesh { vertices, faces: mesh.faces.clone() };
+            let around =
+                |rng: &mut fastrand::Rng| [(); 3].map(|()| f64::from(rng.i32(-100..=1_100)) + far);
+            for_every_vector!(check, &mesh, cases, around, |_| None);
+        }
+    }
 }
 
 #[test]
