@@ -165,7 +165,18 @@ fn rounded<V: Vector>(ray: &Ray<V>, location: &Location) -> TriangleHit<V::Scala
 /// ```
 #[must_use]
 pub fn classify<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Verdict {
-    match decide_front(ray, triangle) {
+    match filter::decide(ray, triangle) {
+        Ok(Some(_)) => Verdict::Interior,
+        Ok(None) => Verdict::Miss,
+        Err(Undecided) => undecided_verdict(ray, triangle),
+    }
+}
+
+/// The later stages, without t, u and v.
+#[cold]
+#[inline(never)]
+fn undecided_verdict<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Verdict {
+    match decide_in_f64(ray, triangle) {
         Ok(Some(_)) => Verdict::Interior,
         Ok(None) => Verdict::Miss,
         Err(Undecided) => Problem::new(ray, triangle).map_or(Verdict::Miss, |p| p.classify()),
@@ -188,7 +199,7 @@ pub fn classify<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Verdict {
 pub fn hits<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
     match filter::decide(ray, triangle) {
         Ok(hit) => hit.is_some(),
-        Err(Undecided) => undecided(ray, triangle).is_some(),
+        Err(Undecided) => undecided_verdict(ray, triangle) != Verdict::Miss,
     }
 }
 
