@@ -79,7 +79,8 @@ impl<K: Plain> TriangleKernel for K {
     }
 }
 
-/// Never wrong, and t, u, v to the last digit.
+/// Never wrong, and t, u, v to the last digit. All that is hit is refined, not the closest alone: of triangles within the
+/// error of a t, which one that is would depend on the order of the visits.
 pub(crate) struct Exact;
 
 impl Plain for Exact {
