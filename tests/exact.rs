@@ -309,7 +309,9 @@ fn refined_hits_are_within_an_ulp() {
                         before < case.t_min || !oracle::triangle(&up_to(before), v).hits();
                     let reached = oracle::triangle(&up_to(above(hit.t)), v).hits();
                     assert!(is_first && reached, "{}", context());
-                    assert!(u >= 0.0 && v_weight >= 0.0 && u + v_weight < 1.0 + 1e-6);
+                    // Each is within an ulp, which is at most EPSILON of it: so is the sum, also as rounded here.
+                    let most = 1.0 + V::Scalar::EPSILON.into();
+                    assert!(u >= 0.0 && v_weight >= 0.0 && u + v_weight <= most, "{}", context());
                     assert!(!hit.front);
                     // A t beyond the largest float is not the one of the point.
                     let is_at = hit.t.abs() == V::Scalar::MAX
