@@ -19,7 +19,7 @@ use isect::{Ray, Triangle, Vector};
 
 use crate::support::generators::single;
 use crate::support::kernels::{Intersect, box_kernels, triangle_kernels};
-use crate::support::meshes::{Mesh, landscape, uv_sphere};
+use crate::support::meshes::{Mesh, Surface, landscape, uv_sphere};
 use crate::support::{aabb, array, for_every_vector, name, oracle, ray, scalar, triangle, vector};
 
 /// A ray/triangle kernel, and whether it promises to lose no ray.
@@ -45,9 +45,7 @@ impl<V: Vector> Kernel<V> {
 
     /// Whether any triangle of the mesh is hit; those around the given vertices are tried first.
     fn stops(&self, ray: &Ray<V>, surface: &Surface<V>, near: &[usize]) -> bool {
-        let hit = |triangle| (self.intersect)(ray, triangle).is_some();
-        near.iter().flat_map(|&v| &surface.around[v]).any(|&k| hit(&surface.triangles[k]))
-            || surface.triangles.iter().any(hit)
+        surface.stops(near, |triangle| (self.intersect)(ray, triangle).is_some())
     }
 
     /// Fails if any ray was lost that may not be.
@@ -63,31 +61,11 @@ impl<V: Vector> Kernel<V> {
     }
 }
 
-/// A mesh in a vector type.
-struct Surface<V: Vector> {
-    triangles: Vec<Triangle<V>>,
-    vertices: Vec<V>,
-    /// By vertex.
-    around: Vec<Vec<usize>>,
-    edges: Vec<[usize; 2]>,
-}
-
-impl<V: Vector> Surface<V> {
-    fn new(mesh: &Mesh) -> Self {
-        Self {
-            triangles: mesh.triangles().map(|t| triangle(&t)).collect(),
-            vertices: mesh.vertices.iter().map(|&p| vector(p)).collect(),
-            around: mesh.around(),
-            edges: mesh.edges().into_iter().map(|e| e.map(|v| v as usize)).collect(),
-        }
-    }
-
-    /// The ends of a random edge, and its middle.
-    fn edge(&self, rng: &mut fastrand::Rng) -> ([usize; 2], V) {
-        let edge = self.edges[rng.usize(..self.edges.len())];
-        let [a, b] = edge.map(|v| self.vertices[v]);
-        (edge, (a + b) * scalar(0.5))
-    }
+/// The ends of a random edge, and its middle.
+fn random_middle<V: Vector>(surface: &Surface<V>, rng: &mut fastrand::Rng) -> ([usize; 2], V) {
+    let edge = surface.edges[rng.usize(..surface.edges.len())];
+    let [a, b] = edge.map(|v| surface.vertices[v]);
+    (edge, (a + b) * scalar(0.5))
 }
 
 // Khronos.
@@ -168,7 +146,7 @@ fn lost_at_edges<V: Vector>(
     let mut lost = Vec::new();
     let mut shot = 0;
     while shot < rays {
-        let (edge, middle) = surface.edge(rng);
+        let (edge, middle) = random_middle(surface, rng);
         let p = array(middle);
         let height = p[2] + 1.0;
         // Off the rim of the square, so that no rounding takes a ray past it.
@@ -345,11 +323,11 @@ fn aimed<V: Vector>(
     let (direction, mut near) = match aim {
         Aim::Anywhere => (vector([(); 3].map(|()| single(2.0 * rng.f64() - 1.0))), Vec::new()),
         Aim::Vertex => {
-            let vertex = rng.usize(..surface.vertices.len());
-            (surface.vertices[vertex] - origin, vec![vertex])
+            let (vertex, target) = surface.vertex(rng);
+            (target - origin, vec![vertex])
         }
         Aim::EdgeMiddle => {
-            let (edge, middle) = surface.edge(rng);
+            let (edge, middle) = random_middle(surface, rng);
             (middle - origin, edge.to_vec())
         }
     };

@@ -5,60 +5,46 @@
 //! (`cargo test --test suite watertight -- --nocapture`).
 
 use isect::glam::{DVec3, Vec3, Vec3A};
-use isect::{Ray, Triangle, Vector};
+use isect::{Ray, Vector};
 
 use crate::support::generators::single;
 use crate::support::kernels::{TriangleKernel, triangle_kernels};
-use crate::support::meshes::{Mesh, icosphere, lattice_cube, parse_obj};
-use crate::support::{array, for_every_vector, name, oracle, scalar, vector};
+use crate::support::meshes::{Mesh, Surface, icosphere, lattice_cube, parse_obj};
+use crate::support::{array, for_every_vector, name, oracle, vector};
 
 const SEED: u64 = 1;
 /// Per mesh, aim and vector type: 2,000,000 rays for each type.
 const RAYS: u32 = 250_000;
 
-/// A closed mesh with the triangles around each edge and vertex, and points inside.
+/// A closed mesh, and points inside.
 struct Target<V: Vector> {
     name: &'static str,
-    triangles: Vec<Triangle<V>>,
-    vertices: Vec<V>,
-    edges: Vec<[usize; 2]>,
-    /// By vertex.
-    around: Vec<Vec<usize>>,
+    surface: Surface<V>,
     inside: Vec<V>,
 }
 
 impl<V: Vector> Target<V> {
     fn new(name: &'static str, mesh: &Mesh, inside: &[[f64; 3]]) -> Self {
         assert!(mesh.is_closed(), "{name}");
-        Self {
-            name,
-            triangles: mesh.triangles().map(|t| t.map(vector).into()).collect(),
-            vertices: mesh.vertices.iter().map(|&p| vector(p)).collect(),
-            edges: mesh.edges().iter().map(|e| e.map(|v| v as usize)).collect(),
-            around: mesh.around(),
-            inside: inside.iter().map(|&p| vector(p)).collect(),
-        }
+        let inside = inside.iter().map(|&p| vector(p)).collect();
+        Self { name, surface: Surface::new(mesh), inside }
     }
 
     /// A ray from inside towards the middle part of an edge, or towards a vertex, and a vertex close by.
     fn aimed(&self, rng: &mut fastrand::Rng, at_vertex: bool) -> (Ray<V>, usize) {
         let origin = self.inside[rng.usize(..self.inside.len())];
-        let (target, close) = if at_vertex {
-            let vertex = rng.usize(..self.vertices.len());
-            (self.vertices[vertex], vertex)
+        let (close, target) = if at_vertex {
+            self.surface.vertex(rng)
         } else {
-            let [a, b] = self.edges[rng.usize(..self.edges.len())];
-            let weight = scalar(f64::from(rng.u32(1..64)) / 64.0);
-            (self.vertices[a] + (self.vertices[b] - self.vertices[a]) * weight, a)
+            let ([close, _], target) = self.surface.edge_point(rng);
+            (close, target)
         };
         (Ray::new(origin, target - origin), close)
     }
 
-    /// Whether any triangle is hit. Those around the target are tried first.
+    /// Whether any triangle is hit.
     fn stops(&self, kernel: &TriangleKernel<V>, ray: &Ray<V>, close: usize) -> bool {
-        let hit = |triangle| (kernel.intersect)(ray, triangle).is_some();
-        self.around[close].iter().any(|&i| hit(&self.triangles[i]))
-            || self.triangles.iter().any(hit)
+        self.surface.stops(&[close], |triangle| (kernel.intersect)(ray, triangle).is_some())
     }
 }
 

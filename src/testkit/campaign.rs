@@ -5,11 +5,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use fastrand::Rng;
 
 use super::answer::Answer;
-use super::meshes::{Mesh, icosphere, lattice_cube};
+use super::meshes::{Mesh, Surface, icosphere, lattice_cube};
 use super::oracle;
 use super::query::{self, Query, ray_source, triangle_source};
 use super::report::{Case, Fault, Loss, Report, bucket_end};
-use super::shapes::{name, scalar, vector, vertices};
+use super::shapes::{name, vector, vertices};
 use crate::{Aabb, Plane, Ray, Scalar, Sphere, Triangle, Vector};
 
 /// How many cases to run, and which.
@@ -172,8 +172,11 @@ impl Campaign {
                     answer.is_hit() && t.is_none_or(|t| (ray, *triangle).has_in_range(t))
                 })
             };
-            let is_stopped =
-                room.near(aim).any(&mut stops) || room.triangles.iter().any(&mut stops);
+            let near = match aim {
+                Aim::Edge(vertex) | Aim::Vertex(vertex) => &[vertex][..],
+                Aim::Anywhere => &[],
+            };
+            let is_stopped = room.surface.stops(near, &mut stops);
             let loss = match aim {
                 Aim::Edge(_) => &mut report.leaks.at_edges,
                 Aim::Vertex(_) => &mut report.leaks.at_vertices,
@@ -289,11 +292,7 @@ enum Aim {
 
 /// A closed mesh, seen from inside.
 struct Room<V: Vector> {
-    triangles: Vec<Triangle<V>>,
-    vertices: Vec<V>,
-    edges: Vec<[usize; 2]>,
-    /// The triangles at each vertex.
-    around: Vec<Vec<usize>>,
+    surface: Surface<V>,
     /// A cube about this point, half as wide as the other number twice, lies inside.
     center: [f64; 3],
     reach: f64,
@@ -314,21 +313,11 @@ fn rooms<V: Vector>() -> [Room<V>; 4] {
 
 impl<V: Vector> Room<V> {
     fn new(mesh: &Mesh, offset: [f64; 3], center: [f64; 3], reach: f64) -> Self {
-        let moved = |p: [f64; 3]| vector(std::array::from_fn(|k| p[k] + offset[k]));
-        let mut around = vec![Vec::new(); mesh.vertices.len()];
-        for (index, face) in mesh.faces.iter().enumerate() {
-            for &vertex in face {
-                around[vertex as usize].push(index);
-            }
-        }
-        Self {
-            triangles: mesh.triangles().map(|t| t.map(moved).into()).collect(),
-            vertices: mesh.vertices.iter().map(|&p| moved(p)).collect(),
-            edges: mesh.edges().iter().map(|edge| edge.map(|vertex| vertex as usize)).collect(),
-            around,
-            center,
-            reach,
-        }
+        // Rounded to the vector type alone.
+        let moved = |p: &[f64; 3]| std::array::from_fn(|k| p[k] + offset[k]);
+        let vertices = mesh.vertices.iter().map(moved).collect();
+        let surface = Surface::new(&Mesh { vertices, faces: mesh.faces.clone() });
+        Self { surface, center, reach }
     }
 
     /// A ray from inside.
@@ -340,33 +329,22 @@ impl<V: Vector> Room<V> {
                 Aim::Anywhere,
             ),
             1..=7 => {
-                let vertex = rng.usize(..self.vertices.len());
-                (self.vertices[vertex], Aim::Vertex(vertex))
+                let (vertex, target) = self.surface.vertex(rng);
+                (target, Aim::Vertex(vertex))
             }
             _ => {
-                let [a, b] = self.edges[rng.usize(..self.edges.len())];
-                let weight = scalar(f64::from(rng.u32(1..64)) / 64.0);
-                let (from, to) = (self.vertices[a], self.vertices[b]);
-                (from + (to - from) * weight, Aim::Edge(a))
+                let ([vertex, _], target) = self.surface.edge_point(rng);
+                (target, Aim::Edge(vertex))
             }
         };
         if target == origin { self.ray(rng) } else { (Ray::new(origin, target - origin), aim) }
     }
 
-    /// The triangles about what a ray is aimed at.
-    fn near(&self, aim: Aim) -> impl Iterator<Item = &Triangle<V>> {
-        let indices = match aim {
-            Aim::Edge(vertex) | Aim::Vertex(vertex) => self.around[vertex].as_slice(),
-            Aim::Anywhere => &[],
-        };
-        indices.iter().map(|&index| &self.triangles[index])
-    }
-
     /// The ray, and the triangles that it meets.
     fn source(&self, ray: &Ray<V>) -> String {
         let exact_ray = oracle::Ray::from(ray);
-        let met =
-            self.triangles.iter().filter(|t| oracle::triangle(&exact_ray, vertices(t)).hits());
+        let triangles = self.surface.triangles.iter();
+        let met = triangles.filter(|t| oracle::triangle(&exact_ray, vertices(t)).hits());
         let met: Vec<_> = met.map(triangle_source).collect();
         format!("{}let triangles = [{}];\n", ray_source(ray), met.join(", "))
     }
@@ -377,6 +355,7 @@ mod tests {
     use super::*;
     use crate::glam::{DVec3, Vec3, Vec3A};
     use crate::ray::triangle::{TriangleHit, exact, moller_trumbore, watertight};
+    use crate::testkit::shapes::scalar;
     use crate::testkit::{TErrors, table};
 
     const CAMPAIGN: Campaign = Campaign::new(20_000, 3);

@@ -2,6 +2,9 @@
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
+use super::shapes::{scalar, vector};
+use crate::{Triangle, Vector};
+
 /// Indexed triangles, counter-clockwise as seen from outside; every coordinate is a single-precision value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -33,18 +36,6 @@ impl Mesh {
             && edges.iter().all(|&[a, b]| a != b && edges.contains(&[b, a]))
     }
 
-    /// By vertex, the indices of the faces around it.
-    #[must_use]
-    pub fn around(&self) -> Vec<Vec<usize>> {
-        let mut around = vec![Vec::new(); self.vertices.len()];
-        for (index, face) in self.faces.iter().enumerate() {
-            for &vertex in face {
-                around[vertex as usize].push(index);
-            }
-        }
-        around
-    }
-
     /// The same faces elsewhere, the vertices rounded to single precision there.
     #[must_use]
     pub fn moved(&self, by: [f64; 3]) -> Self {
@@ -59,6 +50,74 @@ impl Mesh {
     /// The index of the next vertex to be added.
     fn next_index(&self) -> u32 {
         u32::try_from(self.vertices.len()).expect("fewer than 2^32 vertices")
+    }
+}
+
+/// A mesh as triangles of a vector type, which knows the triangles around each vertex: those that a ray at a vertex or an
+/// edge is likely to hit are tried first.
+///
+/// ```
+/// use isect::glam::Vec3;
+/// use isect::ray::triangle::watertight::{self, ShearedRay};
+/// use isect::testkit::meshes::{Surface, icosphere};
+/// use isect::{Ray, testkit::Rng};
+///
+/// let surface = Surface::<Vec3>::new(&icosphere(2));
+/// let mut rng = Rng::with_seed(1);
+/// for _ in 0..1000 {
+///     let ([a, b], target) = surface.edge_point(&mut rng);
+///     let ray = ShearedRay::new(&Ray::new(Vec3::new(0.1, 0.2, 0.3), target - Vec3::new(0.1, 0.2, 0.3)));
+///     assert!(surface.stops(&[a, b], |triangle| watertight::intersect(&ray, triangle).is_some()));
+/// }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface<V: Vector> {
+    /// In the order of the mesh's faces.
+    pub triangles: Vec<Triangle<V>>,
+    /// The positions.
+    pub vertices: Vec<V>,
+    /// Every edge once, by the indices of its vertices.
+    pub edges: Vec<[usize; 2]>,
+    /// By vertex, the indices of the triangles around it.
+    pub around: Vec<Vec<usize>>,
+}
+
+impl<V: Vector> Surface<V> {
+    /// The surface of a mesh, its coordinates rounded to the vector type.
+    #[must_use]
+    pub fn new(mesh: &Mesh) -> Self {
+        let mut around = vec![Vec::new(); mesh.vertices.len()];
+        for (index, face) in mesh.faces.iter().enumerate() {
+            for &vertex in face {
+                around[vertex as usize].push(index);
+            }
+        }
+        Self {
+            triangles: mesh.triangles().map(|t| t.map(vector).into()).collect(),
+            vertices: mesh.vertices.iter().map(|&p| vector(p)).collect(),
+            edges: mesh.edges().into_iter().map(|edge| edge.map(|v| v as usize)).collect(),
+            around,
+        }
+    }
+
+    /// Whether any triangle is hit. Those around some vertices are tried first.
+    pub fn stops(&self, near: &[usize], mut is_hit: impl FnMut(&Triangle<V>) -> bool) -> bool {
+        near.iter().flat_map(|&v| &self.around[v]).any(|&k| is_hit(&self.triangles[k]))
+            || self.triangles.iter().any(is_hit)
+    }
+
+    /// A random vertex.
+    pub fn vertex(&self, rng: &mut fastrand::Rng) -> (usize, V) {
+        let vertex = rng.usize(..self.vertices.len());
+        (vertex, self.vertices[vertex])
+    }
+
+    /// The ends of a random edge, and one of 63 points that part it equally, rounded.
+    pub fn edge_point(&self, rng: &mut fastrand::Rng) -> ([usize; 2], V) {
+        let edge = self.edges[rng.usize(..self.edges.len())];
+        let [a, b] = edge.map(|v| self.vertices[v]);
+        let weight = scalar(f64::from(rng.u32(1..64)) / 64.0);
+        (edge, a + (b - a) * weight)
     }
 }
 
@@ -321,13 +380,25 @@ mod tests {
     }
 
     #[test]
-    fn faces_around_vertices() {
+    fn faces_around_vertices_are_tried_first() {
         let mesh = lattice_cube(1);
-        let around = mesh.around();
-        assert_eq!(around.iter().map(Vec::len).sum::<usize>(), 36);
+        let Surface { around, triangles, .. } = &Surface::<glam::DVec3>::new(&mesh);
+        assert_eq!((triangles.len(), around.iter().map(Vec::len).sum::<usize>()), (12, 36));
         for (vertex, faces) in around.iter().enumerate() {
             assert!(faces.iter().all(|&k| mesh.faces[k].iter().any(|&v| v as usize == vertex)));
         }
+        let surface = Surface::<glam::DVec3>::new(&mesh);
+        let first = triangles[around[7][0]];
+        assert!(surface.stops(&[7], |triangle| {
+            assert_eq!(*triangle, first);
+            true
+        }));
+        let mut asked = 0;
+        let blind = surface.stops(&[7], |_| {
+            asked += 1;
+            false
+        });
+        assert_eq!((blind, asked), (false, around[7].len() + 12));
     }
 
     #[test]
