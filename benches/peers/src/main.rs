@@ -24,6 +24,7 @@ mod verify;
 use std::process::ExitCode;
 
 use clap::Parser;
+use isect::testkit::Campaign;
 
 /// Times isect and its peers on the same queries.
 #[derive(Parser)]
@@ -49,12 +50,16 @@ struct Options {
     /// With --verify: the seed of the cases.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// With --verify: prints a case of each fault, in Rust, also where nothing was promised.
+    #[arg(long)]
+    examples: bool,
 }
 
 fn main() -> ExitCode {
     let options = Options::parse();
     if options.verify {
-        return verify::run(&options.filter, options.cases, options.seed);
+        let campaign = Campaign::new(options.cases, options.seed);
+        return verify::run(&options.filter, campaign, options.examples);
     }
     let rounds = if options.quick { 3 } else { options.rounds };
     println!("{}", report::machine());

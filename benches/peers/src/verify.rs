@@ -11,10 +11,10 @@ use parry3d::query::details::intersection_test_aabb_triangle;
 use crate::contender::{self, Contender, Promise};
 use crate::{kernels, peer};
 
-/// Runs all whose name contains the filter; fails if a kernel of isect breaks its promise.
+/// Runs all whose name contains the filter; fails if a kernel of isect breaks its promise, or if there is none of that name.
 ///
 /// All rays are half-lines: not every peer takes a range.
-pub fn run(filter: &str, cases: u64, seed: u64) -> ExitCode {
+pub fn run(filter: &str, campaign: Campaign, with_examples: bool) -> ExitCode {
     let mut contenders = kernels::of_isect::<Vec3A>();
     contenders.extend(kernels::of_obvhs());
     contenders.extend(of_parry3d());
@@ -24,8 +24,12 @@ pub fn run(filter: &str, cases: u64, seed: u64) -> ExitCode {
         peer::akenine_moller(aabb.center(), aabb.size() * 0.5, &(*triangle).into())
     }));
     contenders.retain(|contender| contender.name.contains(filter));
-    let reports = contender::run(&contenders, Campaign::new(cases, seed).with_half_lines());
-    if contender::print(&contenders, &reports, false) {
+    if contenders.is_empty() {
+        eprintln!("peers: no kernel has a name with {filter:?}");
+        return ExitCode::from(2);
+    }
+    let reports = contender::run(&contenders, campaign.with_half_lines());
+    if contender::print(&contenders, &reports, with_examples) {
         ExitCode::SUCCESS
     } else {
         ExitCode::FAILURE
