@@ -48,7 +48,7 @@
 //! At most 9 ulps of the shape's largest coordinate farther than the least that works: 13 from a sphere that floats
 //! cannot tell from a point. The least is that of each hit: the share of the way from p to its two origins, one on
 //! either side, from where on none of 1,000 rays hits the surface, be they in any direction, flat, along axes or towards
-//! vertices. Measured for thousands of hits on shapes of each kind, in `f32` and `f64`, as much farther are
+//! vertices. Measured for hits on shapes of each kind, 3,000 in `f32` and 100 in `f64`, as much farther are
 //!
 //! | shape | half of them | 99 % | all |
 //! |---|---|---|---|
@@ -58,7 +58,7 @@
 //! | sphere, coordinates and radius of 10^±4 | 0.9 | 4 | 5 |
 //! | sphere with a radius of 32 to 300 roundings of its centre | 0.5 | 1.5 | 2 |
 //! | smaller sphere | 1.5 | 9 | 13 |
-//! | box | 0.1 | 0.5 | 0.5 |
+//! | box | 0.1 | 0.6 | 0.6 |
 //! | plane, ulps of the point's largest coordinate | 0.9 | 7 | 7.5 |
 //!
 //! After M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, 3.9.5,

@@ -770,7 +770,7 @@ impl<V: Vector> Kind<V> {
             let Sphere { center, radius } = grain::<V>(rng);
             Shape::Sphere(Sphere::new(center, radius * scalar(rng.f64() / 10.0)))
         }),
-        Self::new("boxes", 8.0, [0.1, 0.5, 0.5], |rng| Shape::Box(wild_box(rng))),
+        Self::new("boxes", 8.0, [0.1, 0.6, 0.6], |rng| Shape::Box(wild_box(rng))),
         Self::new("planes", 8.0, [0.9, 7.0, 7.5], |rng| Shape::Plane(wild_plane(rng))),
     ];
 }
