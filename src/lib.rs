@@ -76,6 +76,8 @@
 //! * `std` (default): square roots from the standard library, and `alloc`.
 //! * `alloc`: [`Intersect`] for `Box` and `Arc`.
 //! * `libm`: square roots without the standard library.
+//! * `simd` (default): `isect::simd`, packs of triangles and boxes for the width of the processor, which is found
+//!   out at run time.
 //! * `testkit`: `isect::testkit`, the exact oracle, hard cases and a runner, to test kernels with.
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -91,6 +93,8 @@ mod exact;
 pub mod overlap;
 pub mod ray;
 mod shape;
+#[cfg(feature = "simd")]
+pub mod simd;
 pub mod spawn;
 #[cfg(feature = "testkit")]
 pub mod testkit;

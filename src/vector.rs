@@ -12,7 +12,7 @@ use glam::{
     BVec3, BVec3A, DMat4, DVec3, DVec4, Mat4, Vec3, Vec3A, Vec3Swizzles, Vec4, Vec4Swizzles,
 };
 
-mod sealed {
+pub(crate) mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}

@@ -96,7 +96,11 @@ fn triangles() {
 
 /// The bounds are about rounding, not about underflow: where t, a weight, or a length that matters, is subnormal they do not
 /// count.
-fn in_exponent_range<V: Vector>(ray: &oracle::Ray, vertices: &Vertices, bound: &Bound) -> bool {
+pub(crate) fn in_exponent_range<V: Vector>(
+    ray: &oracle::Ray,
+    vertices: &Vertices,
+    bound: &Bound,
+) -> bool {
     let tiny: f64 = <V::Scalar as Scalar>::MIN_POSITIVE.into();
     let lengths = vertices.as_flattened().iter().chain(&ray.origin).chain(&ray.direction);
     let errors = bound.weights.iter().chain([&bound.t]);

@@ -14,6 +14,7 @@ mod hard_suites;
 mod metamorphic;
 mod obvhs;
 mod overlap;
+mod packs;
 mod properties;
 mod spawn;
 mod watertight;

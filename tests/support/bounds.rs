@@ -76,6 +76,11 @@ pub fn exact(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Optio
     determinants(unit, [8.0, 9.0], ray, triangle)
 }
 
+/// 9u for u and v, 10u for t: one rounding more, of the reciprocal.
+pub fn packed_exact(unit: f64, ray: &super::oracle::Ray, triangle: &[Vec3; 3]) -> Option<Bound> {
+    determinants(unit, [9.0, 10.0], ray, triangle)
+}
+
 /// The roundings of a weight and of t, times u·(P(num) + |value|·P(det)) / |det|.
 fn determinants(
     unit: f64,

@@ -76,20 +76,20 @@ impl<V: Vector> Intersect<V> for Aabb<V> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct BoxRay<V: Coordinates = Vec3> {
-    origin: V,
+    pub(crate) origin: V,
     direction: V,
     /// 1 / direction, rounded to nearest.
     inverse: V,
     /// 1 / direction with its magnitude rounded down, by enough to outweigh the rounding of a
     /// difference (see [`Self::new`]).
-    near_inverse: V,
+    pub(crate) near_inverse: V,
     /// 1 / direction with its magnitude rounded up likewise.
-    far_inverse: V,
+    pub(crate) far_inverse: V,
     /// The components in which the ray comes from the side of `max`.
     backward: V::Mask3,
     /// The same by axis: 1 where it comes from the side of `max`, else 0.
-    entry_side: [u8; 3],
-    t_min: V::Scalar,
+    pub(crate) entry_side: [u8; 3],
+    pub(crate) t_min: V::Scalar,
     /// `t_min`, or the least float for a range without a start.
     t_first: V::Scalar,
     /// The greatest t that counts, as in [`Ray::t_max`]; a traversal lowers it to the closest hit
@@ -97,9 +97,9 @@ pub struct BoxRay<V: Coordinates = Vec3> {
     pub t_max: V::Scalar,
     /// A reciprocal or a difference may overflow, or a reciprocal is subnormal and has lost bits: the
     /// quotients are formed one by one instead.
-    extreme: bool,
+    pub(crate) extreme: bool,
     /// The range reaches below t = 0.
-    before_origin: bool,
+    pub(crate) before_origin: bool,
 }
 
 impl<V: Vector> BoxRay<V> {

@@ -74,12 +74,12 @@ impl<V: Vector> Intersect<V> for Triangle<V> {
 }
 
 /// What a kernel body finds, in one lane or several: the numbers count where `hit` holds.
-struct Found<N: Number> {
-    hit: N::Mask,
-    t: N,
-    u: N,
-    v: N,
-    front: N::Mask,
+pub(crate) struct Found<N: Number> {
+    pub(crate) hit: N::Mask,
+    pub(crate) t: N,
+    pub(crate) u: N,
+    pub(crate) v: N,
+    pub(crate) front: N::Mask,
 }
 
 impl<T: Scalar> Found<T> {
@@ -98,20 +98,20 @@ impl<T: Scalar> Found<T> {
 /// The line through the ray, with respect to the triangle: what the kernels compute with that
 /// work on edges.
 #[derive(Clone, Copy)]
-struct Frame<V: Coordinates> {
+pub(crate) struct Frame<V: Coordinates> {
     /// The ray's direction.
-    direction: V,
+    pub(crate) direction: V,
     /// v1 − v0
-    edge1: V,
+    pub(crate) edge1: V,
     /// v2 − v0
-    edge2: V,
+    pub(crate) edge2: V,
     /// From v0 to the ray's origin.
-    offset: V,
+    pub(crate) offset: V,
 }
 
 impl<V: Coordinates> Frame<V> {
     #[inline(always)]
-    fn new(ray: &Ray<V>, triangle: &Triangle<V>) -> Self {
+    pub(crate) fn new(ray: &Ray<V>, triangle: &Triangle<V>) -> Self {
         Self {
             direction: ray.direction,
             edge1: triangle.v1 - triangle.v0,
@@ -140,7 +140,7 @@ impl<V: Vector> Frame<V> {
 }
 
 /// t, u, v of the point where the ray's line meets the triangle's plane.
-struct Solution<N: Number> {
+pub(crate) struct Solution<N: Number> {
     /// A positive multiple of −d·n, n the triangle's normal.
     determinant: N,
     /// t as a fraction of the determinant, before the division.
@@ -154,7 +154,7 @@ impl<N: Number> Solution<N> {
     /// Whether no product that matters has over- or underflowed: those of the most lengths lie in the
     /// middle of the range of exponents, and the weights are finite.
     #[inline(always)]
-    fn is_trustworthy(&self) -> N::Mask {
+    pub(crate) fn is_trustworthy(&self) -> N::Mask {
         self.determinant.are_mid_range(self.numerator) & self.weight0().abs().le(self.t.largest())
     }
 
@@ -166,7 +166,7 @@ impl<N: Number> Solution<N> {
 
     /// Keeps the point if it lies in the triangle and in the range. Any NaN is a miss.
     #[inline(always)]
-    fn clipped(self, t_min: N, t_max: N) -> Found<N> {
+    pub(crate) fn clipped(self, t_min: N, t_max: N) -> Found<N> {
         let zero = self.t.lit(0.0);
         let inside = zero.le(self.u) & zero.le(self.v) & zero.le(self.weight0());
         let Self { determinant, t, u, v, .. } = self;

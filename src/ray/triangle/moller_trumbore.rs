@@ -41,7 +41,7 @@ pub fn intersect<V: Vector>(
 }
 
 #[inline(always)]
-fn solve<V: Coordinates>(frame: &Frame<V>) -> Solution<V::Scalar> {
+pub(crate) fn solve<V: Coordinates>(frame: &Frame<V>) -> Solution<V::Scalar> {
     let Frame { direction, edge1, edge2, offset } = *frame;
     let normal = edge1.cross(edge2);
     let moment = offset.cross(direction);

@@ -73,10 +73,13 @@ pub fn intersect<V: Vector>(
     filter::decide(ray, triangle).unwrap_or_else(|Undecided| undecided(ray, triangle))
 }
 
-/// The later stages.
+/// The later stages, which decide any case.
 #[cold]
 #[inline(never)]
-fn undecided<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Option<TriangleHit<V::Scalar>> {
+pub(crate) fn undecided<V: Vector>(
+    ray: &Ray<V>,
+    triangle: &Triangle<V>,
+) -> Option<TriangleHit<V::Scalar>> {
     if let Ok(hit) = decide_in_f64(ray, triangle) {
         return hit
             .map(|TriangleHit { t, u, v, front }| rounded(ray, &Location { t, u, v, front }));

@@ -1,0 +1,85 @@
+//! Several shapes at once: packs of triangles and boxes for the leaves and nodes of a hierarchy.
+//!
+//! A pack holds up to `N` shapes as a structure of arrays, one per lane of the processor's vectors. A ray is
+//! held against all of them at once, by the bodies of the scalar kernels where one body serves both. Each lane
+//! has the scalar kernel's verdict, at every level, with or without fused operations.
+//!
+//! | pack | kernel | grade |
+//! |---|---|---|
+//! | [`AabbPack`] | [`AabbPack::conservative`]: mask and entries | conservative |
+//! | [`TrianglePack`] | [`TrianglePack::exact`], [`TrianglePack::closest`], [`TrianglePack::any`] | exact |
+//! | | [`TrianglePack::moller_trumbore`] | fast |
+//!
+//! # Levels
+//!
+//! Which instructions the processor has is found out at run time, with no compiler flags, by
+//! [`fearless_simd`]: `Level::new()` looks (it needs `std` on x86-64; `Level::baseline()` does not), and
+//! `dispatch!` enters the level. Do that once per traversal, around the loop: a dispatch costs as much as a few
+//! of these tests. Everything between `dispatch!` and the kernels must be `#[inline(always)]`, closures too: a
+//! function that is not would be compiled without the level's instructions, and cost several times as much.
+//!
+//! ```
+//! use isect::simd::fearless_simd::{Level, Simd, dispatch};
+//! use isect::simd::{AabbPack, TrianglePack};
+//! use isect::{Aabb, Ray, Triangle, glam::Vec3, ray::aabb::BoxRay};
+//!
+//! struct Mesh {
+//!     bounds: AabbPack<f32, 8>,
+//!     leaves: [TrianglePack<f32, 4>; 8],
+//! }
+//!
+//! impl Mesh {
+//!     fn closest_t(&self, level: Level, ray: &Ray) -> Option<f32> {
+//!         dispatch!(level, simd => self.closest_t_at(simd, *ray))
+//!     }
+//!
+//!     #[inline(always)]
+//!     fn closest_t_at<S: Simd>(&self, simd: S, mut ray: Ray) -> Option<f32> {
+//!         let mut closest = None;
+//!         let nodes = self.bounds.conservative(simd, &BoxRay::new(&ray));
+//!         for child in (0..8).filter(|child| (nodes.mask >> child) & 1 == 1) {
+//!             if let Some((_, hit)) = self.leaves[child].closest(simd, &ray) {
+//!                 closest = Some(hit.t);
+//!                 ray.t_max = hit.t;
+//!             }
+//!         }
+//!         closest
+//!     }
+//! }
+//!
+//! let at = |z: f32| Triangle::new(Vec3::new(0.0, 0.0, z), Vec3::new(1.0, 0.0, z), Vec3::new(0.0, 1.0, z));
+//! let triangles = [at(5.0), at(2.0), at(3.0)];
+//! let mut mesh = Mesh { bounds: AabbPack::from_aabbs(&triangles.map(|t| t.aabb())), leaves: Default::default() };
+//! for (leaf, triangle) in mesh.leaves.iter_mut().zip(triangles) {
+//!     *leaf = TrianglePack::from_triangles(&[triangle]);
+//! }
+//! let ray = Ray::new(Vec3::new(0.2, 0.2, 0.0), Vec3::Z);
+//! assert_eq!(mesh.closest_t(Level::new(), &ray), Some(2.0));
+//! ```
+
+mod aabb;
+mod lanes;
+mod triangle;
+
+pub use aabb::{AabbHits, AabbPack};
+pub use fearless_simd;
+pub use lanes::Lanes;
+pub use triangle::{TriangleHits, TrianglePack};
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::Level;
+
+    /// Every level that this processor has, the one without SIMD included.
+    pub(super) fn levels() -> impl Iterator<Item = Level> {
+        let best = Level::new();
+        let levels = [Some(Level::fallback()), Some(best)];
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let levels = levels.into_iter().chain([
+            best.as_sse2().map(Level::Sse2),
+            best.as_sse4_2().map(Level::Sse4_2),
+            best.as_avx2().map(Level::Avx2),
+        ]);
+        levels.into_iter().flatten()
+    }
+}

@@ -1,0 +1,369 @@
+//! Triangles side by side: a leaf.
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::lanes::{Columns, Fused, Lanes, splat};
+use crate::ray::triangle::{Found, Frame, TriangleHit, exact, moller_trumbore};
+use crate::shape::{Ray, Triangle};
+use crate::vector::{Coordinates, Number, Scalar, Vector};
+
+/// `N` triangles, the coordinates of all on an axis side by side.
+///
+/// ```
+/// use isect::simd::{TrianglePack, fearless_simd::{Level, dispatch}};
+/// use isect::{Ray, Triangle, glam::Vec3};
+///
+/// let at = |z| Triangle::new(Vec3::new(0.0, 0.0, z), Vec3::new(1.0, 0.0, z), Vec3::new(0.0, 1.0, z));
+/// // Six of the lanes stay empty.
+/// let leaf = TrianglePack::<f32, 8>::from_triangles(&[at(-2.0), at(-1.0)]);
+/// let ray = Ray::new(Vec3::new(0.25, 0.5, 3.0), Vec3::NEG_Z);
+/// let (lane, hit) = dispatch!(Level::new(), simd => leaf.closest(simd, &ray)).expect("a hit");
+/// assert_eq!((lane, hit.t, hit.u, hit.v, hit.front), (1, 4.0, 0.25, 0.5, true));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct TrianglePack<T, const N: usize> {
+    /// By vertex, axis and lane. The vertices of an empty lane are NaN.
+    vertices: [[[T; N]; 3]; 3],
+}
+
+/// Which triangles of a pack a ray hits, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct TriangleHits<T, const N: usize> {
+    /// The ray's parameter at the hit of each lane; like the rest of no meaning in a lane that is not hit.
+    pub t: [T; N],
+    /// The weight of `v1`.
+    pub u: [T; N],
+    /// The weight of `v2`.
+    pub v: [T; N],
+    /// Bit i tells whether the direction runs against the normal of the triangle in lane i.
+    pub front: u32,
+    /// Bit i tells whether the triangle of lane i is hit.
+    pub mask: u32,
+}
+
+impl<T: Scalar, const N: usize> TriangleHits<T, N> {
+    /// The hit of a lane.
+    #[inline]
+    #[must_use]
+    pub fn get(&self, lane: usize) -> Option<TriangleHit<T>> {
+        if lane >= N || (self.mask >> lane) & 1 == 0 {
+            return None;
+        }
+        let front = (self.front >> lane) & 1 == 1;
+        Some(TriangleHit { t: self.t[lane], u: self.u[lane], v: self.v[lane], front })
+    }
+
+    /// The lane of the least t, and the hit there; of several at the same t the lowest lane.
+    #[inline]
+    #[must_use]
+    pub fn closest(&self) -> Option<(usize, TriangleHit<T>)> {
+        let hits = (0..N).filter_map(|lane| Some((lane, self.get(lane)?)));
+        hits.reduce(|best, other| if other.1.t < best.1.t { other } else { best })
+    }
+}
+
+/// Nothing but empty lanes.
+impl<T: Lanes<N>, const N: usize> Default for TrianglePack<T, N> {
+    fn default() -> Self {
+        Self { vertices: [[[T::NAN; N]; 3]; 3] }
+    }
+}
+
+impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
+    /// The triangles, from lane 0 on. The other lanes are never hit.
+    ///
+    /// # Panics
+    ///
+    /// If there are more than `N` triangles.
+    #[must_use]
+    pub fn from_triangles<V: Vector<Scalar = T>>(triangles: &[Triangle<V>]) -> Self {
+        assert!(triangles.len() <= N, "{} triangles for {N} lanes", triangles.len());
+        let mut pack = Self::default();
+        for (lane, triangle) in triangles.iter().enumerate() {
+            for (vertex, of_pack) in <[V; 3]>::from(*triangle).into_iter().zip(&mut pack.vertices) {
+                for (axis, lanes) in of_pack.iter_mut().enumerate() {
+                    lanes[lane] = vertex.component(axis);
+                }
+            }
+        }
+        pack
+    }
+
+    /// The triangle of a lane; one of NaN where there is none.
+    #[inline]
+    #[must_use]
+    pub fn get<V: Vector<Scalar = T>>(&self, lane: usize) -> Triangle<V> {
+        if lane >= N {
+            return [V::splat(T::NAN); 3].into();
+        }
+        let vertices = self.vertices.each_ref().map(|vertex| {
+            let [x, y, z] = vertex.each_ref().map(|axis| axis[lane]);
+            V::new(x, y, z)
+        });
+        vertices.into()
+    }
+
+    /// Where the ray meets each triangle, in the closed range of the ray.
+    ///
+    /// t = s·n/det, u = (s × d)·e2/det, v = −(s × d)·e1/det, det = −d·n: the body of
+    /// [`moller_trumbore::intersect`], all lanes at once.
+    ///
+    /// **Grade: fast.** Each lane has the verdict of that kernel, and its t, u and v to the last bit. (A lane of
+    /// which the products may have over- or underflowed asks it.)
+    ///
+    /// An empty lane, a triangle without area as computed, a zero direction, a NaN or infinite field: no hit.
+    ///
+    /// Call it where the level is known (see [the module](super)): there it is part of its caller.
+    ///
+    /// ```
+    /// use isect::simd::{TrianglePack, fearless_simd::{Level, dispatch}};
+    /// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::moller_trumbore};
+    ///
+    /// let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+    /// let leaf = TrianglePack::<f32, 4>::from_triangles(&[triangle]);
+    /// let ray = Ray::new(Vec3::new(0.3, 0.1, 0.7), Vec3::new(0.1, 0.1, -0.3));
+    /// let hits = dispatch!(Level::new(), simd => leaf.moller_trumbore(simd, &ray));
+    /// assert_eq!(hits.mask, 1);
+    /// assert_eq!(hits.get(0), moller_trumbore::intersect(&ray, &triangle));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn moller_trumbore<S: Simd, V: Vector<Scalar = T>>(
+        &self,
+        simd: S,
+        ray: &Ray<V>,
+    ) -> TriangleHits<T, N> {
+        let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd));
+        let solution = moller_trumbore::solve(&Frame::new(&lanes, &triangles));
+        let open = T::bits::<S>(!solution.is_trustworthy() & is_present(&triangles));
+        let mut hits = collected::<T, S, N>(solution.clipped(lanes.t_min, lanes.t_max));
+        if open != 0 {
+            self.ask(ray, open, &mut hits, moller_trumbore::intersect);
+        }
+        hits
+    }
+
+    /// Where the ray meets each triangle, in the closed range of the ray.
+    ///
+    /// t, u and v as in [`Self::moller_trumbore`]; an error bound tells whether the signs of the three weights,
+    /// and t in the range, are certain, and lanes in which they are not go through the later stages of
+    /// [`exact::intersect`], one by one.
+    ///
+    /// **Grade: exact**: each lane has the verdict of [`exact::intersect`], that of exact arithmetic. u, v and t
+    /// are within the bounds that are documented there with 9, 9 and 10 in the place of 8, 8 and 9.
+    ///
+    /// An empty lane, a zero direction, a NaN or infinite field, an empty range: no hit.
+    ///
+    /// Call it where the level is known (see [the module](super)): there it is part of its caller.
+    ///
+    /// ```
+    /// use isect::simd::{TrianglePack, fearless_simd::{Level, dispatch}};
+    /// use isect::{Ray, Triangle, glam::Vec3};
+    ///
+    /// // Two halves of a square, and a ray at the edge between them.
+    /// let [a, b, c, d] = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+    /// let halves = [Triangle::new(a, b, c), Triangle::new(a, c, d)];
+    /// let leaf = TrianglePack::<f32, 4>::from_triangles(&halves);
+    /// let ray = Ray::new(Vec3::new(0.5, 0.5, 1.0), Vec3::NEG_Z);
+    /// assert_eq!(dispatch!(Level::new(), simd => leaf.exact(simd, &ray)).mask, 0b11);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn exact<S: Simd, V: Vector<Scalar = T>>(
+        &self,
+        simd: S,
+        ray: &Ray<V>,
+    ) -> TriangleHits<T, N> {
+        let Filtered { found, open } = self.filter(simd, ray);
+        let open = T::bits::<S>(open);
+        let mut hits = collected::<T, S, N>(found);
+        if open != 0 {
+            self.ask(ray, open, &mut hits, exact::undecided);
+        }
+        hits
+    }
+
+    /// The closest hit of [`Self::exact`], and its lane: [`TriangleHits::closest`], for less.
+    ///
+    /// **Grade: exact**, as far as hits go; of two hits whose t are closer to each other than their error bounds
+    /// either may be called the closer one.
+    #[inline(always)]
+    #[must_use]
+    pub fn closest<S: Simd, V: Vector<Scalar = T>>(
+        &self,
+        simd: S,
+        ray: &Ray<V>,
+    ) -> Option<(usize, TriangleHit<T>)> {
+        let Filtered { found, open } = self.filter(simd, ray);
+        let open = T::bits::<S>(open);
+        if open != 0 {
+            let mut hits = collected::<T, S, N>(found);
+            self.ask(ray, open, &mut hits, exact::undecided);
+            return hits.closest();
+        }
+        let mask = T::bits::<S>(found.hit);
+        if mask == 0 {
+            return None;
+        }
+        let t = <T::Wide<S> as Number>::select(found.hit, found.t, splat(simd, T::INFINITY));
+        let least = splat(simd, T::least::<S>(t));
+        let lane = (T::bits::<S>(t.le(least)) & mask).trailing_zeros() as usize;
+        Some((lane, collected::<T, S, N>(found).get(lane)?))
+    }
+
+    /// Whether the ray hits any of the triangles, as a shadow ray asks: whether [`Self::exact`] has a hit.
+    ///
+    /// **Grade: exact**, as [`Self::exact`]. Where a hit is certain the later stages are not asked.
+    #[inline(always)]
+    #[must_use]
+    pub fn any<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &Ray<V>) -> bool {
+        let Filtered { found, open } = self.filter(simd, ray);
+        let (hit, open) = (T::bits::<S>(found.hit), T::bits::<S>(open));
+        hit & !open != 0 || (open != 0 && self.any_of(ray, open))
+    }
+
+    /// [`Self::closest`] for a caller without a level. Slow: a dispatch costs as much as some of these tests,
+    /// and nothing is shared between calls.
+    #[must_use]
+    pub fn dispatch_closest<V: Vector<Scalar = T>>(
+        &self,
+        level: Level,
+        ray: &Ray<V>,
+    ) -> Option<(usize, TriangleHit<T>)> {
+        dispatch!(level, simd => self.closest(simd, ray))
+    }
+
+    #[inline(always)]
+    fn wide<S: Simd>(&self, simd: S) -> Triangle<Columns<T::Wide<S>>> {
+        let [v0, v1, v2] = &self.vertices;
+        Triangle {
+            v0: Columns::load(simd, v0),
+            v1: Columns::load(simd, v1),
+            v2: Columns::load(simd, v2),
+        }
+    }
+
+    /// The filter of [`exact::intersect`] in the form that suits many triangles: around the normal and s × d, as
+    /// in Möller–Trumbore.
+    ///
+    /// Its four volumes have the same monomials as there, with as many roundings each (or fewer, where products
+    /// and sums are fused), so its bound E = 64u·kd·s·(ka + s) holds. Different is:
+    ///
+    /// * t = T·(1/den) has a rounding more: in all within 26u·s²·(ka + s)/|den|, where 64u is kept clear.
+    /// * 1/den must not overflow. The lengths count as at least 2⁻³⁶ (`f64`: 2⁻²⁹⁶) instead of φ, which is 16 times
+    ///   as much: where the signs are certain, |den| > 3E ≥ 3·2⁻¹⁸·2⁻¹⁰⁸, a normal number, and so is 1/den.
+    /// * s counts as at least that, instead of both of its parts, and lengths from 2³⁷ (2³⁰¹) on are compared with it
+    ///   instead of becoming infinite.
+    #[inline(always)]
+    fn filter<S: Simd, V: Vector<Scalar = T>>(
+        &self,
+        simd: S,
+        ray: &Ray<V>,
+    ) -> Filtered<T::Wide<S>> {
+        let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd));
+        let Frame { direction, edge1, edge2, offset } = Frame::new(&lanes, &triangles);
+        let zero = splat(simd, T::ZERO);
+
+        let scale = T::FILTER_RAISE * T::FILTER_LOWER;
+        let scale = scale * scale * scale;
+        let (floor, cap) = (T::FILTER_FLOOR * T::ONE.lit(16.0), T::MAX / T::FILTER_RAISE);
+        let kd = Coordinates::abs(ray.direction).max_element();
+        // No sign is above infinity: so a ray that the bound is not for is left to the later stages.
+        let usable = kd < cap && ray.t_min <= ray.t_max;
+        let kd = if usable { kd.max(floor) * scale } else { T::INFINITY };
+        let (k1, k2) = (edge1.abs().max_element(), edge2.abs().max_element());
+        let s = (k1 + k2).max(splat(simd, floor));
+        let size = offset.abs().max_element() + s;
+        let area = s * size;
+        let (bound, t_bound) = (area * splat(simd, kd), area * (s * splat(simd, scale)));
+
+        let normal = edge1.fused_cross(edge2);
+        let moment = offset.fused_cross(direction);
+        let den = -direction.fused_dot(normal);
+        let inverse = splat(simd, T::ONE) / den;
+        let s1 = edge2.fused_dot(moment);
+        let s2 = -edge1.fused_dot(moment);
+        let s0 = den - s1 - s2;
+        let t = offset.fused_dot(normal) * inverse;
+
+        // As in the scalar filter, down to the order of the operands: with any NaN, s0 is one, and both stay.
+        let inside = s1.min(s2).min(s0).max(-s1.max(s2).max(s0));
+        let within = (t - lanes.t_min).min(lanes.t_max - t);
+        let certain = bound.lt(inside.abs())
+            & (t_bound.lt((within * den).abs()) | inside.lt(zero))
+            & size.lt(splat(simd, cap));
+        let hit = zero.lt(inside.min(within));
+        let found = Found { hit, t, u: s1 * inverse, v: s2 * inverse, front: zero.lt(den) };
+        Filtered { found, open: !certain & is_present(&triangles) }
+    }
+
+    /// Asks a scalar kernel about the lanes in `open`.
+    #[cold]
+    #[inline(never)]
+    fn ask<V: Vector<Scalar = T>>(
+        &self,
+        ray: &Ray<V>,
+        open: u32,
+        hits: &mut TriangleHits<T, N>,
+        intersect: impl Fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<T>>,
+    ) {
+        for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
+            let bit = 1 << lane;
+            hits.mask &= !bit;
+            if let Some(hit) = intersect(ray, &self.get::<V>(lane)) {
+                (hits.t[lane], hits.u[lane], hits.v[lane]) = (hit.t, hit.u, hit.v);
+                hits.front = hits.front & !bit | u32::from(hit.front) << lane;
+                hits.mask |= bit;
+            }
+        }
+    }
+
+    /// Whether the ray hits a triangle in the lanes of `open`.
+    #[cold]
+    #[inline(never)]
+    fn any_of<V: Vector<Scalar = T>>(&self, ray: &Ray<V>, open: u32) -> bool {
+        (0..N)
+            .filter(|lane| (open >> lane) & 1 == 1)
+            .any(|lane| exact::undecided(ray, &self.get::<V>(lane)).is_some())
+    }
+}
+
+/// What the filter finds: where `open` holds, nothing.
+struct Filtered<N: Number> {
+    found: Found<N>,
+    open: N::Mask,
+}
+
+/// The lanes that hold a triangle. (A NaN elsewhere leaves everything open.)
+#[inline(always)]
+fn is_present<N: Fused>(triangles: &Triangle<Columns<N>>) -> N::Mask {
+    triangles.v0.x.le(triangles.v0.x)
+}
+
+#[inline(always)]
+fn wide_ray<T, S, V, const N: usize>(simd: S, ray: &Ray<V>) -> Ray<Columns<T::Wide<S>>>
+where
+    T: Lanes<N>,
+    S: Simd,
+    V: Vector<Scalar = T>,
+{
+    Ray {
+        origin: Columns::of(simd, ray.origin),
+        direction: Columns::of(simd, ray.direction),
+        t_min: splat(simd, ray.t_min),
+        t_max: splat(simd, ray.t_max),
+    }
+}
+
+#[inline(always)]
+fn collected<T: Lanes<N>, S: Simd, const N: usize>(found: Found<T::Wide<S>>) -> TriangleHits<T, N> {
+    TriangleHits {
+        t: T::store::<S>(found.t),
+        u: T::store::<S>(found.u),
+        v: T::store::<S>(found.v),
+        front: T::bits::<S>(found.front),
+        mask: T::bits::<S>(found.hit),
+    }
+}

@@ -1,0 +1,262 @@
+//! Claim: at every level of the processor, a lane of a pack has the verdict of the scalar kernel.
+
+use fearless_simd::{Level, dispatch};
+use isect::glam::{DVec3, Vec3, Vec3A};
+use isect::ray::aabb::{BoxRay, conservative};
+use isect::ray::triangle::{TriangleHit, exact, moller_trumbore};
+use isect::simd::{AabbHits, AabbPack, Lanes, TriangleHits, TrianglePack};
+use isect::{Aabb, Ray, Scalar, Triangle, Vector};
+
+use crate::bounds::check_triangle;
+use crate::support::bounds::{self, unit_roundoff};
+use crate::support::kernels::{Intersect, TriangleKernel};
+use crate::support::{aabb, generators, name, oracle, ray, triangle};
+
+const SEED: u64 = 31;
+
+/// Every level that this processor has, the one without SIMD included.
+pub fn levels() -> Vec<Level> {
+    let best = Level::new();
+    let mut levels = vec![Level::fallback()];
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    {
+        levels.extend(best.as_sse2().map(Level::Sse2));
+        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+        levels.extend(best.as_avx2().map(Level::Avx2));
+        levels.extend(best.as_avx512().map(Level::Avx512));
+    }
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    levels.push(best);
+    levels
+}
+
+#[test]
+fn the_levels_are_those_of_the_processor() {
+    // A baseline above SSE2 takes over from the levels below it, but the list stays.
+    let levels = levels();
+    assert!(levels[0].is_fallback() && levels.len() > 1);
+    let best = std::mem::discriminant(&Level::new());
+    assert!(levels.iter().any(|level| std::mem::discriminant(level) == best), "{levels:?}");
+}
+
+/// Runs a check with each kind of pack.
+macro_rules! for_every_pack {
+    ($check:ident) => {
+        $check::<Vec3, 4>();
+        $check::<Vec3A, 8>();
+        $check::<DVec3, 4>();
+    };
+}
+
+/// A hard case, and some more triangles for the same ray: with its vertices turned, exchanged, nudged, on a line, with a
+/// NaN or an infinity, and those of other cases.
+fn triangles<V: Vector>(rng: &mut fastrand::Rng, lanes: usize) -> (Ray<V>, Vec<Triangle<V>>) {
+    let (exact_ray, vertices) = generators::ray_triangle(rng);
+    let some = (0..rng.usize(0..=lanes)).map(|lane| {
+        let mut vertices =
+            if lane > 0 && rng.u8(..4) == 0 { generators::ray_triangle(rng).1 } else { vertices };
+        if lane > 0 {
+            vertices.rotate_left(rng.usize(..3));
+            let place = (rng.usize(..3), rng.usize(..3));
+            let number = &mut vertices[place.0][place.1];
+            match rng.u8(..12) {
+                0 => vertices.swap(0, 1),
+                1 => *number = f64::NAN,
+                2 => *number = f64::INFINITY,
+                3 => vertices[0] = vertices[1],
+                4..=7 => *number = generators::single(*number * (1.0 + 2f64.powi(-23))),
+                _ => {}
+            }
+        }
+        triangle(&vertices)
+    });
+    let some = some.collect();
+    (ray(&exact_ray), some)
+}
+
+/// What the scalar kernel says of each triangle.
+fn scalar_hits<V: Vector>(
+    kernel: Intersect<V, Triangle<V>, TriangleHit<V::Scalar>>,
+    ray: &Ray<V>,
+    triangles: &[Triangle<V>],
+) -> Vec<Option<TriangleHit<V::Scalar>>> {
+    triangles.iter().map(|triangle| kernel(ray, triangle)).collect()
+}
+
+fn lanes_of<T: Scalar, const N: usize>(hits: &TriangleHits<T, N>) -> Vec<Option<TriangleHit<T>>> {
+    (0..N).map(|lane| hits.get(lane)).collect()
+}
+
+#[test]
+fn moller_trumbore_is_the_scalar_kernel_to_the_last_bit() {
+    fn check<V: Vector<Scalar: Lanes<N>>, const N: usize>() {
+        for level in levels() {
+            let mut rng = fastrand::Rng::with_seed(SEED);
+            let mut count = 0;
+            for _ in 0..20_000 {
+                let (ray, triangles) = triangles::<V>(&mut rng, N);
+                let pack = TrianglePack::<V::Scalar, N>::from_triangles(&triangles);
+                let hits = dispatch!(level, simd => pack.moller_trumbore(simd, &ray));
+                let mut expected = scalar_hits(moller_trumbore::intersect, &ray, &triangles);
+                count += expected.iter().flatten().count();
+                expected.resize(N, None);
+                assert_eq!(lanes_of(&hits), expected, "{level:?} {ray:?} {triangles:?}");
+            }
+            println!("{:<6} × {N:<2} {level:?}: {count} hits", name::<V>());
+            assert!(count > 3_000, "{count}");
+        }
+    }
+    for_every_pack!(check);
+}
+
+#[test]
+fn exact_has_the_verdict_of_the_scalar_kernel() {
+    fn check<V: Vector<Scalar: Lanes<N>>, const N: usize>() {
+        for level in levels() {
+            let mut rng = fastrand::Rng::with_seed(SEED + 1);
+            let (mut count, mut certain) = (0, 0);
+            for _ in 0..20_000 {
+                let (ray, triangles) = triangles::<V>(&mut rng, N);
+                let pack = TrianglePack::<V::Scalar, N>::from_triangles(&triangles);
+                let (hits, closest, any) = dispatch!(level, simd => {
+                    (pack.exact(simd, &ray), pack.closest(simd, &ray), pack.any(simd, &ray))
+                });
+                let mut expected = scalar_hits(exact::intersect, &ray, &triangles);
+                count += expected.iter().flatten().count();
+                certain += triangles.iter().filter(|t| exact::stage(&ray, t) == 0).count();
+                expected.resize(N, None);
+                let case = || format!("{level:?} {ray:?} {triangles:?}");
+                let sides = |hits: &[Option<TriangleHit<V::Scalar>>]| -> Vec<Option<bool>> {
+                    hits.iter().map(|hit| hit.map(|hit| hit.front)).collect()
+                };
+                assert_eq!(sides(&lanes_of(&hits)), sides(&expected), "{}", case());
+                assert_eq!(closest, hits.closest(), "{}", case());
+                assert_eq!(any, hits.mask != 0, "{}", case());
+                if let Some((lane, closest)) = closest {
+                    let t = lanes_of(&hits).into_iter().map(|hit| hit.map(|hit| hit.t));
+                    let earlier = |(other, t): (usize, Option<V::Scalar>)| {
+                        t.is_some_and(|t| t < closest.t || (t == closest.t && other < lane))
+                    };
+                    assert!(!t.enumerate().any(earlier), "{}", case());
+                }
+            }
+            println!("{:<6} × {N:<2} {level:?}: {count} hits, {certain} certain", name::<V>());
+            assert!(count > 8_000 && certain > 8_000, "{count} {certain}");
+        }
+    }
+    for_every_pack!(check);
+}
+
+/// The same against the oracle, and t, u, v within the bounds of the documentation, which are those of Möller–Trumbore.
+#[test]
+fn exact_is_within_its_bounds() {
+    fn check<V: Vector>(
+        name: &'static str,
+        intersect: Intersect<V, Triangle<V>, TriangleHit<V::Scalar>>,
+    ) {
+        let bound = bounds::packed_exact;
+        let kernel = TriangleKernel { name, intersect, bound };
+        let mut rng = fastrand::Rng::with_seed(SEED + 2);
+        let (mut hits, mut misses) = (0, 0);
+        for _ in 0..100_000 {
+            let (exact_ray, vertices) = generators::ray_triangle(&mut rng);
+            let verdict = intersect(&ray(&exact_ray), &triangle(&vertices)).is_some();
+            assert_eq!(verdict, oracle::triangle(&exact_ray, vertices).hits(), "{exact_ray:?}");
+            let unit = unit_roundoff::<V::Scalar>();
+            let bound = bound(unit, &exact_ray, &vertices).filter(|bound| {
+                crate::bounds::in_exponent_range::<V>(&exact_ray, &vertices, bound)
+            });
+            if let Some(bound) = bound {
+                if check_triangle(&kernel, &exact_ray, vertices, bound) {
+                    hits += 1;
+                } else {
+                    misses += 1;
+                }
+            }
+        }
+        println!("{name}: {hits} hits and {misses} misses within bounds");
+        assert!(hits > 13_000 && misses > 13_000, "{hits} {misses}");
+    }
+    check::<Vec3>("Vec3 × 8", |ray, triangle| {
+        let pack = TrianglePack::<f32, 8>::from_triangles(&[*triangle]);
+        pack.dispatch_closest(Level::new(), ray).map(|(_, hit)| hit)
+    });
+    check::<DVec3>("DVec3 × 4", |ray, triangle| {
+        let pack = TrianglePack::<f64, 4>::from_triangles(&[*triangle]);
+        pack.dispatch_closest(Level::new(), ray).map(|(_, hit)| hit)
+    });
+    check::<Vec3>("Vec3 × 4, without SIMD", |ray, triangle| {
+        let pack = TrianglePack::<f32, 4>::from_triangles(&[*triangle]);
+        pack.dispatch_closest(Level::fallback(), ray).map(|(_, hit)| hit)
+    });
+}
+
+/// A hard case, and some more boxes for the same ray: flat, empty, with a NaN, unbounded, nudged, and those of other cases.
+fn boxes<V: Vector>(rng: &mut fastrand::Rng, lanes: usize) -> (Ray<V>, Vec<Aabb<V>>) {
+    let (exact_ray, min, max) = generators::ray_aabb(rng);
+    let some = (0..rng.usize(0..=lanes)).map(|lane| {
+        let (mut min, mut max) = (min, max);
+        if lane > 0 {
+            if rng.u8(..4) == 0 {
+                (_, min, max) = generators::ray_aabb(rng);
+            }
+            let axis = rng.usize(..3);
+            match rng.u8(..12) {
+                0 => min[axis] = f64::NAN,
+                1 => max[axis] = f64::NAN,
+                2 => max[axis] = min[axis],
+                3 => (min[axis], max[axis]) = (max[axis], min[axis]),
+                4 => min[axis] = f64::NEG_INFINITY,
+                5 => max[axis] = f64::INFINITY,
+                6..=8 => max[axis] = generators::single(max[axis] * (1.0 + 2f64.powi(-23))),
+                _ => {}
+            }
+        }
+        aabb(&min, &max)
+    });
+    let some = some.collect();
+    (ray(&exact_ray), some)
+}
+
+fn entries<T: Scalar, const N: usize>(hits: &AabbHits<T, N>) -> Vec<Option<T>> {
+    (0..N).map(|lane| ((hits.mask >> lane) & 1 == 1).then_some(hits.t_enter[lane])).collect()
+}
+
+#[test]
+fn boxes_have_the_verdict_and_the_entry_of_the_scalar_kernel() {
+    fn check<V: Vector<Scalar: Lanes<N>>, const N: usize>() {
+        for level in levels() {
+            let mut rng = fastrand::Rng::with_seed(SEED + 3);
+            let (mut hits, mut misses) = (0, 0);
+            for _ in 0..50_000 {
+                let (ray, boxes) = boxes::<V>(&mut rng, N);
+                let ray = BoxRay::new(&ray);
+                let pack = AabbPack::<V::Scalar, N>::from_aabbs(&boxes);
+                let answer = dispatch!(level, simd => pack.conservative(simd, &ray));
+                let interval = |aabb| conservative::interval(&ray, aabb).map(|[enter, _]| enter);
+                let mut expected: Vec<_> = boxes.iter().map(interval).collect();
+                hits += expected.iter().flatten().count();
+                misses += expected.iter().filter(|enter| enter.is_none()).count();
+                expected.resize(N, None);
+                assert_eq!(entries(&answer), expected, "{level:?} {ray:?} {boxes:?}");
+            }
+            println!("{:<6} × {N:<2} {level:?}: {hits} hits, {misses} misses", name::<V>());
+            assert!(hits > 15_000 && misses > 15_000, "{hits} {misses}");
+        }
+    }
+    for_every_pack!(check);
+}
+
+#[test]
+fn packs_give_back_what_they_hold() {
+    let corner = Aabb::new(Vec3::ZERO, Vec3::ONE);
+    let boxes = AabbPack::<f32, 4>::from_aabbs(&[corner, Aabb::new(Vec3::ONE, Vec3::ZERO)]);
+    assert_eq!(
+        [0, 1, 2, 4].map(|lane| boxes.get(lane)),
+        [corner, Aabb::EMPTY, Aabb::EMPTY, Aabb::EMPTY]
+    );
+    let shape = Triangle::new(Vec3::X, Vec3::Y, Vec3::Z);
+    let leaf = TrianglePack::<f32, 4>::from_triangles(&[shape]);
+    assert_eq!(leaf.get::<Vec3>(0), shape);
+    assert!([1, 3, 4].iter().all(|&lane| leaf.get::<Vec3>(lane).v2.is_nan()));
+}
