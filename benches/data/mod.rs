@@ -36,6 +36,16 @@ impl<A, B> Pairs<A, B> {
         Pairs { first: self.first.iter().map(first).collect(), second: seconds }
     }
 
+    /// Each of the first parts with all of its second parts at once.
+    pub(crate) fn packed<C, D>(
+        &self,
+        first: impl Fn(&A) -> C,
+        pack: impl Fn(&[B]) -> D,
+    ) -> Vec<(C, D)> {
+        let packs = self.second.chunks_exact(PER_FIRST).map(pack);
+        self.first.iter().map(first).zip(packs).collect()
+    }
+
     /// Calls `visit` with each pair in turn.
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(&A, &B)) {

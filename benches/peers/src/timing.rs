@@ -56,11 +56,32 @@ impl Contender {
         Self { name, is_reference: false, pass: Box::new(pass) }
     }
 
+    /// A contender with a loop of its own over as many queries, [`ask_packs`] in most cases, which counts the hits.
+    pub fn with_pass(name: &'static str, pass: impl Fn() -> usize + 'static) -> Self {
+        Self { name, is_reference: false, pass: Box::new(pass) }
+    }
+
     /// The same contender, as the one with which the others are compared.
     pub fn reference(mut self) -> Self {
         self.is_reference = true;
         self
     }
+}
+
+/// Asks `query` about packs of pairs, each behind a `black_box` as in [`Contender::new`]: to be called where
+/// the processor's level is known.
+#[inline(always)]
+pub fn ask_packs<A, P, T>(
+    packs: &[(A, P)],
+    query: impl Fn(&A, &P) -> T,
+    hits: impl Fn(&T) -> u32,
+) -> usize {
+    let mut count = 0;
+    for (a, pack) in packs {
+        let answer = black_box(query(black_box(a), black_box(pack)));
+        count += hits(&answer) as usize;
+    }
+    count
 }
 
 /// How a contender did.
