@@ -251,11 +251,11 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
     /// in Möller–Trumbore.
     ///
     /// Its four volumes have the same monomials as there, with as many roundings each (or fewer, where products
-    /// and sums are fused), so its bound E = 64u·kd·s·(ka + s) holds. Different is:
+    /// and sums are fused), so its bound E = 56u·kd·s·(ka + s) holds. Different is:
     ///
-    /// * t = T·(1/den) has a rounding more: in all within 26u·s²·(ka + s)/|den|, where 64u is kept clear.
-    /// * 1/den must not overflow. The lengths count as at least 2⁻³⁶ (`f64`: 2⁻²⁹⁶) instead of φ, which is 16 times
-    ///   as much: where the signs are certain, |den| > 3E ≥ 3·2⁻¹⁸·2⁻¹⁰⁸, a normal number, and so is 1/den.
+    /// * t = T·(1/den) has a rounding more: in all within 26u·s²·(ka + s)/|den|, where 56u is kept clear.
+    /// * 1/den must not overflow. The lengths count as at least 2⁻³² (`f64`: 2⁻²⁹⁶) instead of φ, which is 16 times
+    ///   as much: where the signs are certain, |den| > 3E ≥ 3·2⁻¹⁹·2⁻⁹⁶, a normal number, and so is 1/den.
     /// * s counts as at least that, instead of both of its parts, and lengths from 2³⁷ (2³⁰¹) on are compared with it
     ///   instead of becoming infinite.
     #[inline(always)]
