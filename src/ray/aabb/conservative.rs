@@ -2,7 +2,7 @@
 //!
 //! After T. Ize, "Robust BVH Ray Traversal", JCGT 2.2, 2013, which widens the exit by two ulps: too
 //! little, as exact arithmetic shows, and the wrong way for negative t. Here the reciprocals carry
-//! the margin, three steps outward, and a range below zero gets both.
+//! the margin, a factor of 1 ∓ 4u with u = EPSILON/2, and a range below zero gets both.
 
 use super::BoxRay;
 use crate::shape::Aabb;
@@ -17,7 +17,7 @@ use crate::vector::{Number, Scalar, Vector};
 /// answer is not `None`, and the interval holds every t at which one does, for every finite ray
 /// and box. In return a box may be reported that the ray passes within a few ulps; and one with
 /// infinite bounds that a parallel ray passes at any distance. The bounds are within 9 ulps of the
-/// exact ones: three steps of the reciprocal, of up to two ulps of t each, and three roundings.
+/// exact ones: the margin of 4u, up to four ulps of t, and four roundings of up to one each.
 ///
 /// An empty box, a box with a NaN, a zero direction, a NaN or infinite origin or direction: `None`.
 ///

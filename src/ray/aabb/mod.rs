@@ -110,22 +110,14 @@ impl<V: Vector> BoxRay<V> {
         let Ray { origin, direction, t_max, .. } = *ray;
         let zero = V::Scalar::ZERO;
         let inverse = V::splat(V::Scalar::ONE).divided(direction);
-        // With u = EPSILON/2: a computed difference p − o is too long by at most the factor 1 + u,
-        // the computed reciprocal by as much, and a step to the next float changes it by at least
-        // the factor 1 ∓ u. Two steps down outweigh both: (1 − u)²·(1 + u)² < 1; three steps up do:
-        // (1 + u)³·(1 − u)² > 1. Then difference · reciprocal, before its own rounding, is on the
-        // safe side of t; and rounding keeps order, so comparing it with any float or with another
-        // such product cannot go wrong. (Zero and infinite reciprocals stay what they are.)
-        let step = |x: V::Scalar, outward: bool| {
-            if !x.is_finite() {
-                x
-            } else if (x > zero) == outward {
-                x.next_up()
-            } else {
-                x.next_down()
-            }
-        };
-        let stepped = |outward| inverse.map(|x| step(step(step(x, outward), outward), outward));
+        // With u = EPSILON/2: a computed difference p − o is too long by at most the factor 1 + u, or too
+        // short by 1 − u, and the computed reciprocal by as much. A factor of 1 ∓ 4u, itself exact, outweighs
+        // both, its own rounding included: (1 − 4u)·(1 + u)³ < 1 and (1 + 4u)·(1 − u)³ > 1. Then
+        // difference · reciprocal, before its own rounding, is on the safe side of t; and rounding keeps
+        // order, so comparing it with any float or with another such product cannot go wrong. (Zero and
+        // infinite reciprocals stay what they are; what underflow may lose of the least normal one is
+        // less than a rounding.)
+        let margin = V::Scalar::EPSILON + V::Scalar::EPSILON;
         // A range that lies at infinity holds no t.
         let reaches = ray.t_min < V::Scalar::INFINITY && -V::Scalar::INFINITY < t_max;
         let valid = ray.is_valid() && reaches;
@@ -133,24 +125,24 @@ impl<V: Vector> BoxRay<V> {
         let t_min = if valid { ray.t_min } else { V::Scalar::NAN };
         // Up to an eighth of the largest float's ulp, adding the origin to it does not overflow.
         let far_away = V::Scalar::MAX * V::Scalar::EPSILON * zero.lit(0.125);
-        let overflow = |axis: usize| {
-            let parallel = direction.component(axis) == zero;
-            let magnitude = inverse.component(axis).abs();
-            let is_normal = magnitude >= V::Scalar::MIN_POSITIVE && magnitude.is_finite();
-            !(parallel || is_normal) || origin.component(axis).abs() > far_away
-        };
+        let is_far = origin.abs().max_element() > far_away;
+        // Of an axis to which the ray is parallel the reciprocal is infinite, and may be.
+        let crossed = V::ZERO.less(direction.abs());
+        let magnitudes = V::select(crossed, inverse.abs(), V::splat(V::Scalar::ONE));
+        let is_normal = V::splat(V::Scalar::MIN_POSITIVE).all_le(magnitudes)
+            & magnitudes.all_le(V::splat(V::Scalar::MAX));
         Self {
             origin,
             direction,
             inverse,
-            near_inverse: stepped(false),
-            far_inverse: stepped(true),
+            near_inverse: inverse * (V::Scalar::ONE - margin),
+            far_inverse: inverse * (V::Scalar::ONE + margin),
             backward: inverse.less(V::ZERO),
             entry_side: [0, 1, 2].map(|axis| u8::from(inverse.component(axis) < zero)),
             t_min,
             t_first: (-V::Scalar::MAX).max(t_min),
             t_max,
-            extreme: valid && (0..3).any(overflow),
+            extreme: valid & (is_far | !is_normal),
             before_origin: t_min < zero,
         }
     }
