@@ -115,7 +115,7 @@ fn a_bad_mesh_is_named_with_the_reason() {
 #[test]
 fn bad_options_are_named_with_the_reason() {
     let folder = Folder::new("options");
-    let cases: [(&[&str], &str); 10] = [
+    let cases: [(&[&str], &str); 13] = [
         (&["--size", "0x9"], "at least one pixel"),
         (&["--size", "100000x100000"], "more than 67108864 pixels"),
         (&["--size", "wide"], "not of the form 960x540"),
@@ -126,6 +126,9 @@ fn bad_options_are_named_with_the_reason() {
         (&["--triangle", "none"], "'--triangle"),
         (&["--scene", "none"], "'--scene"),
         (&["--scene", "spheres", "--mesh", "x.obj"], "no mesh in this scene"),
+        (&["--scene", "spheres", "--bench"], "no mesh in this scene"),
+        (&["--mesh", "icosphere:10"], "not icosphere:0 to icosphere:9"),
+        (&["--accel", "bvh8", "--triangle", "watertight"], "for '--triangle exact' only"),
     ];
     for (arguments, reason) in cases {
         // An option may be given once: leave out the test's own.
@@ -178,6 +181,26 @@ fn threads_and_the_hierarchy_do_not_change_the_bytes() {
     };
     let one = picture(&["--size", "48x40", "--threads", "1"]);
     assert_eq!(one, picture(&["--size", "48x40", "--threads", "2"]));
-    let naive = ["--accel", "none"];
-    assert_eq!(picture(&naive), picture(&[]));
+    let naive = picture(&["--accel", "none"]);
+    assert_eq!(naive, picture(&["--accel", "bvh2"]));
+    assert_eq!(naive, picture(&["--accel", "bvh8"]));
+    assert_eq!(naive, picture(&[]));
+}
+
+#[test]
+fn the_bench_makes_a_table_and_no_picture() {
+    let folder = Folder::new("bench");
+    let output = folder.run(&["--bench", "--mesh", "icosphere:1"]);
+    assert!(output.status.success() && output.stderr.is_empty());
+    let table = String::from_utf8(output.stdout).unwrap();
+    let row = |name: &str| {
+        let row = table.lines().find(|line| line.starts_with(name)).unwrap();
+        row.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect::<Vec<f64>>()
+    };
+    for kind in ["primary", "random", "shadow"] {
+        let row = row(kind);
+        assert!(row.len() == 5 && row.iter().all(|x| *x > 0.0), "{table}");
+    }
+    assert!(table.contains("triangles         80\n"), "{table}");
+    assert!(folder.names().is_empty());
 }

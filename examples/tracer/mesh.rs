@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use isect::glam::Vec3A;
+use isect::glam::{DVec3, Vec3A};
 use isect::ray::triangle::TriangleHit;
+use isect::testkit::meshes;
 use isect::{Aabb, Triangle};
 
 use crate::failure::Failure;
@@ -27,6 +28,13 @@ impl Obj {
     /// The bunny.
     pub(crate) fn bunny() -> Self {
         Self::parse(BUNNY).expect("the bunny is a sound mesh")
+    }
+
+    /// A sphere of 20·4^level triangles, in single precision as it is.
+    pub(crate) fn icosphere(level: u32) -> Self {
+        let meshes::Mesh { vertices, faces } = meshes::icosphere(level);
+        let position = |vertex| DVec3::from_array(vertex).as_vec3a();
+        Self { positions: vertices.into_iter().map(position).collect(), indices: faces }
     }
 
     /// Reads a file.
