@@ -98,7 +98,7 @@ fn timed(trace: impl FnOnce() -> Found) -> (Found, f64) {
 /// The rays of each kind.
 fn rays(scene: &Scene, [width, height]: [u32; 2]) -> [Vec<Ray<Vec3A>>; 3] {
     let bounds = scene.mesh.bounds();
-    // From where the scene's camera stands, but so near that a ball around the mesh fills the height.
+    // From where the camera of the scene stands, but narrower: a ball of the size of the mesh fills the height.
     let View { from, at, .. } = scene.view;
     let sine = 0.5 * bounds.size().max_element() / (from - at).length();
     let field_of_view = 2.0 * sine.min(0.5).asin().to_degrees();
