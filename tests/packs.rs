@@ -3,6 +3,7 @@
 use fearless_simd::{Level, dispatch};
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::ray::aabb::{BoxRay, conservative};
+use isect::ray::triangle::watertight::{self, ShearedRay};
 use isect::ray::triangle::{TriangleHit, exact, moller_trumbore};
 use isect::simd::{AabbHits, AabbPack, Lanes, TriangleHits, TrianglePack};
 use isect::{Aabb, Ray, Scalar, Triangle, Vector};
@@ -44,7 +45,10 @@ macro_rules! for_every_pack {
     ($check:ident) => {
         $check::<Vec3, 4>();
         $check::<Vec3A, 8>();
+        $check::<Vec3A, 16>();
+        $check::<DVec3, 2>();
         $check::<DVec3, 4>();
+        $check::<DVec3, 8>();
     };
 }
 
@@ -74,74 +78,137 @@ fn triangles<V: Vector>(rng: &mut fastrand::Rng, lanes: usize) -> (Ray<V>, Vec<T
     (ray(&exact_ray), some)
 }
 
-/// What the scalar kernel says of each triangle.
-fn scalar_hits<V: Vector>(
-    kernel: Intersect<V, Triangle<V>, TriangleHit<V::Scalar>>,
+/// What a pack says, asked in every way.
+struct Answers<T, const N: usize> {
+    moller_trumbore: TriangleHits<T, N>,
+    watertight: TriangleHits<T, N>,
+    exact: TriangleHits<T, N>,
+    closest: Option<(usize, TriangleHit<T>)>,
+    any: bool,
+}
+
+/// Compiled once for each kind of pack, for all the tests.
+fn answers<V: Vector<Scalar: Lanes<N>>, const N: usize>(
+    level: Level,
     ray: &Ray<V>,
     triangles: &[Triangle<V>],
-) -> Vec<Option<TriangleHit<V::Scalar>>> {
-    triangles.iter().map(|triangle| kernel(ray, triangle)).collect()
+) -> Answers<V::Scalar, N> {
+    let pack = TrianglePack::<V::Scalar, N>::from_triangles(triangles);
+    dispatch!(level, simd => Answers {
+        moller_trumbore: pack.moller_trumbore(simd, ray),
+        watertight: pack.watertight(simd, &ShearedRay::new(ray)),
+        exact: pack.exact(simd, ray),
+        closest: pack.closest(simd, ray),
+        any: pack.any(simd, ray),
+    })
 }
 
-fn lanes_of<T: Scalar, const N: usize>(hits: &TriangleHits<T, N>) -> Vec<Option<TriangleHit<T>>> {
-    (0..N).map(|lane| hits.get(lane)).collect()
+/// What the scalar kernel says of each triangle, and of the lanes without one.
+fn scalar_hits<V: Vector, const N: usize>(
+    kernel: impl Fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<V::Scalar>>,
+    ray: &Ray<V>,
+    triangles: &[Triangle<V>],
+) -> [Option<TriangleHit<V::Scalar>>; N] {
+    std::array::from_fn(|lane| kernel(ray, triangles.get(lane)?))
 }
 
+fn lanes_of<T: Scalar, const N: usize>(hits: &TriangleHits<T, N>) -> [Option<TriangleHit<T>>; N] {
+    std::array::from_fn(|lane| hits.get(lane))
+}
+
+/// Holds what a pack says of one case against the scalar kernels; returns how many lanes each of them hits.
+fn check_triangles<V: Vector<Scalar: Lanes<N>>, const N: usize>(
+    level: Level,
+    ray: &Ray<V>,
+    triangles: &[Triangle<V>],
+) -> [usize; 3] {
+    let Answers { moller_trumbore: fast, watertight: closed, exact: certain, closest, any } =
+        answers::<V, N>(level, ray, triangles);
+    let case = || format!("{level:?} {ray:?} {triangles:?}");
+    let expected_fast = scalar_hits(moller_trumbore::intersect, ray, triangles);
+    assert_eq!(lanes_of(&fast), expected_fast, "{}", case());
+    let sheared = ShearedRay::new(ray);
+    let by_shear = |_: &Ray<V>, triangle: &Triangle<V>| watertight::intersect(&sheared, triangle);
+    let expected_closed = scalar_hits(by_shear, ray, triangles);
+    assert_eq!(lanes_of(&closed), expected_closed, "{}", case());
+    let expected = scalar_hits(exact::intersect, ray, triangles);
+    let sides =
+        |hits: [Option<TriangleHit<V::Scalar>>; N]| hits.map(|hit| hit.map(|hit| hit.front));
+    assert_eq!(sides(lanes_of(&certain)), sides(expected), "{}", case());
+    assert_eq!(closest, certain.closest(), "{}", case());
+    assert_eq!(any, certain.mask != 0, "{}", case());
+    if let Some((lane, closest)) = closest {
+        let earlier = |(other, hit): (usize, Option<TriangleHit<V::Scalar>>)| {
+            hit.is_some_and(|hit| hit.t < closest.t || (hit.t == closest.t && other < lane))
+        };
+        assert!(!lanes_of(&certain).into_iter().enumerate().any(earlier), "{}", case());
+    }
+    [expected_fast, expected_closed, expected].map(|hits| hits.iter().flatten().count())
+}
+
+/// The verdicts of all three kernels; t, u and v of the fast and of the watertight one to the last bit.
 #[test]
-fn moller_trumbore_is_the_scalar_kernel_to_the_last_bit() {
+fn a_lane_has_the_verdict_of_the_scalar_kernel() {
     fn check<V: Vector<Scalar: Lanes<N>>, const N: usize>() {
         for level in levels() {
             let mut rng = fastrand::Rng::with_seed(SEED);
-            let mut count = 0;
-            for _ in 0..20_000 {
+            let (mut hits, mut certain) = ([0; 3], 0);
+            for _ in 0..80_000 / N {
                 let (ray, triangles) = triangles::<V>(&mut rng, N);
-                let pack = TrianglePack::<V::Scalar, N>::from_triangles(&triangles);
-                let hits = dispatch!(level, simd => pack.moller_trumbore(simd, &ray));
-                let mut expected = scalar_hits(moller_trumbore::intersect, &ray, &triangles);
-                count += expected.iter().flatten().count();
-                expected.resize(N, None);
-                assert_eq!(lanes_of(&hits), expected, "{level:?} {ray:?} {triangles:?}");
+                let counts = check_triangles::<V, N>(level, &ray, &triangles);
+                hits = std::array::from_fn(|kernel| hits[kernel] + counts[kernel]);
+                certain += triangles.iter().filter(|t| exact::stage(&ray, t) == 0).count();
             }
-            println!("{:<6} × {N:<2} {level:?}: {count} hits", name::<V>());
-            assert!(count > 3_000, "{count}");
+            println!("{:<6} × {N:<2} {level:?}: {hits:?} hits, {certain} certain", name::<V>());
+            assert!(hits.iter().all(|hits| *hits > 3_000) && certain > 8_000);
         }
     }
     for_every_pack!(check);
 }
 
+/// The same where the filter's bound ends: lengths about its floor and its cap, directions down to subnormal ones, edges
+/// that pass the ray by a rounding.
 #[test]
-fn exact_has_the_verdict_of_the_scalar_kernel() {
+fn the_ends_of_the_filter() {
     fn check<V: Vector<Scalar: Lanes<N>>, const N: usize>() {
+        let is_single = size_of::<V::Scalar>() == 4;
+        let (floor, cap, least) = if is_single { (-36, 37, -149) } else { (-300, 301, -1074) };
+        let power = |exponent: i32| 2f64.powi(exponent.max(least));
         for level in levels() {
-            let mut rng = fastrand::Rng::with_seed(SEED + 1);
-            let (mut count, mut certain) = (0, 0);
-            for _ in 0..20_000 {
-                let (ray, triangles) = triangles::<V>(&mut rng, N);
-                let pack = TrianglePack::<V::Scalar, N>::from_triangles(&triangles);
-                let (hits, closest, any) = dispatch!(level, simd => {
-                    (pack.exact(simd, &ray), pack.closest(simd, &ray), pack.any(simd, &ray))
-                });
-                let mut expected = scalar_hits(exact::intersect, &ray, &triangles);
-                count += expected.iter().flatten().count();
-                certain += triangles.iter().filter(|t| exact::stage(&ray, t) == 0).count();
-                expected.resize(N, None);
-                let case = || format!("{level:?} {ray:?} {triangles:?}");
-                let sides = |hits: &[Option<TriangleHit<V::Scalar>>]| -> Vec<Option<bool>> {
-                    hits.iter().map(|hit| hit.map(|hit| hit.front)).collect()
+            let mut rng = fastrand::Rng::with_seed(SEED + 4);
+            let mut hits = [0; 3];
+            for _ in 0..40_000 / N {
+                let size = if rng.bool() { floor } else { cap } + rng.i32(-8..8);
+                let distance = size + rng.i32(0..6);
+                let speed = match rng.u8(..3) {
+                    0 => size + rng.i32(-8..8),
+                    1 => floor - rng.i32(0..60),
+                    _ => rng.i32(-40..40),
                 };
-                assert_eq!(sides(&lanes_of(&hits)), sides(&expected), "{}", case());
-                assert_eq!(closest, hits.closest(), "{}", case());
-                assert_eq!(any, hits.mask != 0, "{}", case());
-                if let Some((lane, closest)) = closest {
-                    let t = lanes_of(&hits).into_iter().map(|hit| hit.map(|hit| hit.t));
-                    let earlier = |(other, t): (usize, Option<V::Scalar>)| {
-                        t.is_some_and(|t| t < closest.t || (t == closest.t && other < lane))
-                    };
-                    assert!(!t.enumerate().any(earlier), "{}", case());
-                }
+                let mut number = |exponent: i32| {
+                    let mantissa = f64::from(rng.i32(-64..=64)) / 64.0;
+                    let nudge = 1.0 + f64::from(rng.i32(-1..=1)) * 2f64.powi(-22);
+                    mantissa * nudge * power(exponent)
+                };
+                let mut point = |exponent| [(); 3].map(|()| number(exponent));
+                let shapes: Vec<[[f64; 3]; 3]> =
+                    (0..N).map(|_| [(); 3].map(|()| point(size))).collect();
+                let direction = point(speed);
+                // From the middle of an edge, or a point inside, of one of them.
+                let [a, b, c] = shapes[0];
+                let weights = if hits[0] % 2 == 0 { [0.5, 0.5, 0.0] } else { [0.25, 0.5, 0.25] };
+                let steps = power(distance) / power(speed);
+                let origin = std::array::from_fn(|i| {
+                    let target = a[i] * weights[0] + b[i] * weights[1] + c[i] * weights[2];
+                    target - direction[i] * steps
+                });
+                let exact_ray = oracle::Ray { origin, direction, t_min: 0.0, t_max: f64::INFINITY };
+                let triangles: Vec<Triangle<V>> = shapes.iter().map(triangle).collect();
+                let counts = check_triangles::<V, N>(level, &ray(&exact_ray), &triangles);
+                hits = std::array::from_fn(|kernel| hits[kernel] + counts[kernel]);
             }
-            println!("{:<6} × {N:<2} {level:?}: {count} hits, {certain} certain", name::<V>());
-            assert!(count > 8_000 && certain > 8_000, "{count} {certain}");
+            println!("{:<6} × {N:<2} {level:?}: {hits:?} hits", name::<V>());
+            assert!(hits.iter().all(|hits| *hits > 500), "{hits:?}");
         }
     }
     for_every_pack!(check);

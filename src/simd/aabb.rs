@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::lanes::{Lanes, splat};
+use super::lanes::{Lanes, is_scalar, splat};
 use crate::ray::aabb::{BoxRay, conservative};
 use crate::shape::Aabb;
 use crate::vector::{Number, Vector};
@@ -97,7 +97,7 @@ impl<T: Lanes<N>, const N: usize> AabbPack<T, N> {
         simd: S,
         ray: &BoxRay<V>,
     ) -> AabbHits<T, N> {
-        if ray.extreme | ray.before_origin {
+        if is_scalar(simd) || ray.extreme | ray.before_origin {
             return self.lane_by_lane(ray);
         }
         // The order of the scalar kernel's folds. For a parallel ray in a plane of the box a bound is 0 · ∞, a

@@ -7,8 +7,9 @@ use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use fearless_simd::{
-    Select, Simd, SimdBase, SimdFloat, SimdMask, f32x4, f32x8, f64x4, mask32x4, mask32x8, mask64x4,
-    u32x4, u32x8, u64x4,
+    Select, Simd, SimdBase, SimdFloat, SimdMask, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8,
+    mask32x4, mask32x8, mask32x16, mask64x2, mask64x4, mask64x8, u32x4, u32x8, u32x16, u64x2,
+    u64x4, u64x8,
 };
 
 use crate::vector::sealed::Sealed;
@@ -26,7 +27,7 @@ pub trait Fused: Number {
     fn times_minus(self, factor: Self, subtrahend: Self) -> Self;
 }
 
-/// A float of which `N` make a pack: `f32` by 4 and 8, `f64` by 4. (Sealed.)
+/// A float of which `N` make a pack: `f32` by 4, 8 and 16, `f64` by 2, 4 and 8. (Sealed.)
 pub trait Lanes<const N: usize>: Scalar {
     /// `N` of them side by side.
     #[doc(hidden)]
@@ -62,7 +63,7 @@ pub trait Lanes<const N: usize>: Scalar {
 /// instructions of x86 do. Their documentation leaves it open; the test below holds them to it.
 #[inline(always)]
 fn keeps_second<S: Simd>(simd: S) -> bool {
-    cfg!(any(target_arch = "x86", target_arch = "x86_64")) && !simd.level().is_fallback()
+    cfg!(any(target_arch = "x86", target_arch = "x86_64")) && !is_scalar(simd)
 }
 
 macro_rules! lanes {
@@ -180,7 +181,7 @@ macro_rules! lanes {
             fn least<S: Simd>(wide: $wide<S>) -> Self {
                 wide.reduce_min()
             }
-            #[allow(clippy::cast_possible_truncation)] // 8 lanes at the most
+            #[allow(clippy::cast_possible_truncation)] // 16 lanes at the most
             #[inline(always)]
             fn bits<S: Simd>(mask: $mask<S>) -> u32 {
                 mask.to_bitmask() as u32
@@ -191,7 +192,17 @@ macro_rules! lanes {
 
 lanes!(f32x4, mask32x4, u32x4, f32, u32, 4, 23, 0xff);
 lanes!(f32x8, mask32x8, u32x8, f32, u32, 8, 23, 0xff);
+lanes!(f32x16, mask32x16, u32x16, f32, u32, 16, 23, 0xff);
+lanes!(f64x2, mask64x2, u64x2, f64, u64, 2, 52, 0x7ff);
 lanes!(f64x4, mask64x4, u64x4, f64, u64, 4, 52, 0x7ff);
+lanes!(f64x8, mask64x8, u64x8, f64, u64, 8, 52, 0x7ff);
+
+/// Whether the processor has no lanes: there the packs ask the scalar kernels, lane by lane. (As arrays of
+/// numbers the lanes would be slower than that, and take most of the time to compile.)
+#[inline(always)]
+pub(super) fn is_scalar<S: Simd>(simd: S) -> bool {
+    simd.level().is_fallback()
+}
 
 /// The same number in every lane.
 #[inline(always)]
@@ -225,14 +236,22 @@ impl<N> Columns<N> {
         }
     }
 
-    /// A vector for each lane.
+    /// A vector for each lane, of these axes.
     #[inline(always)]
-    pub(super) fn load<T, S, const L: usize>(simd: S, [x, y, z]: &[[T; L]; 3]) -> Self
+    pub(super) fn load<T, S, const L: usize>(
+        simd: S,
+        vectors: &[[T; L]; 3],
+        [x, y, z]: [usize; 3],
+    ) -> Self
     where
         T: Lanes<L, Wide<S> = N>,
         S: Simd,
     {
-        Self { x: T::load(simd, x), y: T::load(simd, y), z: T::load(simd, z) }
+        Self {
+            x: T::load(simd, &vectors[x]),
+            y: T::load(simd, &vectors[y]),
+            z: T::load(simd, &vectors[z]),
+        }
     }
 }
 
@@ -467,7 +486,10 @@ mod tests {
         for level in levels() {
             dispatch!(level, simd => check::<f32, _, 4>(simd));
             dispatch!(level, simd => check::<f32, _, 8>(simd));
+            dispatch!(level, simd => check::<f32, _, 16>(simd));
+            dispatch!(level, simd => check::<f64, _, 2>(simd));
             dispatch!(level, simd => check::<f64, _, 4>(simd));
+            dispatch!(level, simd => check::<f64, _, 8>(simd));
         }
     }
 

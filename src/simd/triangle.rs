@@ -2,7 +2,8 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::lanes::{Columns, Fused, Lanes, splat};
+use super::lanes::{Columns, Fused, Lanes, is_scalar, splat};
+use crate::ray::triangle::watertight::{self, ShearedRay};
 use crate::ray::triangle::{Found, Frame, TriangleHit, exact, moller_trumbore};
 use crate::shape::{Ray, Triangle};
 use crate::vector::{Coordinates, Number, Scalar, Vector};
@@ -135,14 +136,81 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         simd: S,
         ray: &Ray<V>,
     ) -> TriangleHits<T, N> {
-        let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd));
+        if is_scalar(simd) {
+            return self.lane_by_lane::<V>(|triangle| moller_trumbore::intersect(ray, triangle));
+        }
+        let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd, [0, 1, 2]));
         let solution = moller_trumbore::solve(&Frame::new(&lanes, &triangles));
         let open = !solution.is_trustworthy() & is_present(&triangles);
         // The stores come first: after `bits` they were compiled into a copy, at twice the time.
         let mut hits = collected::<T, S, N>(solution.clipped(lanes.t_min, lanes.t_max));
         let open = T::bits::<S>(open);
         if open != 0 {
-            self.ask(ray, open, &mut hits, moller_trumbore::intersect);
+            self.ask::<V>(open, &mut hits, |triangle| moller_trumbore::intersect(ray, triangle));
+        }
+        hits
+    }
+
+    /// Where the ray meets each triangle, in the closed range of the ray.
+    ///
+    /// The three edge functions of the sheared vertices, over their sum: the body of [`watertight::intersect`], all
+    /// lanes at once. Their products are never fused, at no level.
+    ///
+    /// **Grade: watertight.** Each lane has the verdict of that kernel, and its t, u and v to the last bit. (A lane with
+    /// an edge function of zero, or one whose products may have over- or underflowed, asks it.)
+    ///
+    /// An empty lane, a triangle without area as seen along the ray, a zero direction, a NaN or infinite field: no hit.
+    ///
+    /// Call it where the level is known (see [the module](super)): there it is part of its caller.
+    ///
+    /// ```
+    /// use isect::simd::{TrianglePack, fearless_simd::{Level, dispatch}};
+    /// use isect::ray::triangle::watertight::{self, ShearedRay};
+    /// use isect::{Ray, Triangle, glam::Vec3};
+    ///
+    /// let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+    /// let leaf = TrianglePack::<f32, 4>::from_triangles(&[triangle]);
+    /// let ray = ShearedRay::new(&Ray::new(Vec3::new(0.3, 0.1, 0.7), Vec3::new(0.1, 0.1, -0.3)));
+    /// let hits = dispatch!(Level::new(), simd => leaf.watertight(simd, &ray));
+    /// assert_eq!(hits.get(0), watertight::intersect(&ray, &triangle));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn watertight<S: Simd, V: Vector<Scalar = T>>(
+        &self,
+        simd: S,
+        ray: &ShearedRay<V>,
+    ) -> TriangleHits<T, N> {
+        if is_scalar(simd) {
+            return self.lane_by_lane::<V>(|triangle| watertight::intersect(ray, triangle));
+        }
+        // The axes in the order in which the shear wants them: it is along the last.
+        let axes = [(ray.axis as usize + 1) % 3, (ray.axis as usize + 2) % 3, ray.axis as usize];
+        let origin = ray.origin;
+        let lanes = ShearedRay {
+            origin: Columns {
+                x: splat(simd, origin.component(axes[0])),
+                y: splat(simd, origin.component(axes[1])),
+                z: splat(simd, origin.component(axes[2])),
+            },
+            axis: 2,
+            shear: [splat(simd, ray.shear[0]), splat(simd, ray.shear[1])],
+            inverse: splat(simd, ray.inverse),
+            t_scale: splat(simd, ray.t_scale),
+            t_min: splat(simd, ray.t_min),
+            t_max: splat(simd, ray.t_max),
+        };
+        let triangles = self.wide(simd, axes);
+        let sheared = lanes.sheared(&triangles);
+        let weights = sheared.rounded_weights();
+        let determinant = weights.x() + weights.y() + weights.z();
+        let zero = splat(simd, T::ZERO);
+        let nonzero = zero.lt(weights.x().abs().min(weights.y().abs()).min(weights.z().abs()));
+        let open = !(nonzero & determinant.is_mid_range()) & is_present(&triangles);
+        let mut hits = collected::<T, S, N>(sheared.found(&lanes, weights, determinant));
+        let open = T::bits::<S>(open);
+        if open != 0 {
+            self.ask::<V>(open, &mut hits, |triangle| watertight::intersect(ray, triangle));
         }
         hits
     }
@@ -178,11 +246,14 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         simd: S,
         ray: &Ray<V>,
     ) -> TriangleHits<T, N> {
+        if is_scalar(simd) {
+            return self.lane_by_lane::<V>(|triangle| exact::intersect(ray, triangle));
+        }
         let Filtered { found, open } = self.filter(simd, ray);
         let mut hits = collected::<T, S, N>(found);
         let open = T::bits::<S>(open);
         if open != 0 {
-            self.ask(ray, open, &mut hits, exact::undecided);
+            self.ask::<V>(open, &mut hits, |triangle| exact::undecided(ray, triangle));
         }
         hits
     }
@@ -198,11 +269,14 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         simd: S,
         ray: &Ray<V>,
     ) -> Option<(usize, TriangleHit<T>)> {
+        if is_scalar(simd) {
+            return self.exact(simd, ray).closest();
+        }
         let Filtered { found, open } = self.filter(simd, ray);
         let open = T::bits::<S>(open);
         if open != 0 {
             let mut hits = collected::<T, S, N>(found);
-            self.ask(ray, open, &mut hits, exact::undecided);
+            self.ask::<V>(open, &mut hits, |triangle| exact::undecided(ray, triangle));
             return hits.closest();
         }
         let mask = T::bits::<S>(found.hit);
@@ -221,6 +295,9 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
     #[inline(always)]
     #[must_use]
     pub fn any<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &Ray<V>) -> bool {
+        if is_scalar(simd) {
+            return (0..N).any(|lane| exact::hits(ray, &self.get(lane)));
+        }
         let Filtered { found, open } = self.filter(simd, ray);
         let (hit, open) = (T::bits::<S>(found.hit), T::bits::<S>(open));
         hit & !open != 0 || (open != 0 && self.any_of(ray, open))
@@ -237,13 +314,14 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         dispatch!(level, simd => self.closest(simd, ray))
     }
 
+    /// The triangles with these axes as x, y and z.
     #[inline(always)]
-    fn wide<S: Simd>(&self, simd: S) -> Triangle<Columns<T::Wide<S>>> {
+    fn wide<S: Simd>(&self, simd: S, axes: [usize; 3]) -> Triangle<Columns<T::Wide<S>>> {
         let [v0, v1, v2] = &self.vertices;
         Triangle {
-            v0: Columns::load(simd, v0),
-            v1: Columns::load(simd, v1),
-            v2: Columns::load(simd, v2),
+            v0: Columns::load(simd, v0, axes),
+            v1: Columns::load(simd, v1, axes),
+            v2: Columns::load(simd, v2, axes),
         }
     }
 
@@ -264,7 +342,7 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         simd: S,
         ray: &Ray<V>,
     ) -> Filtered<T::Wide<S>> {
-        let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd));
+        let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd, [0, 1, 2]));
         let Frame { direction, edge1, edge2, offset } = Frame::new(&lanes, &triangles);
         let zero = splat(simd, T::ZERO);
 
@@ -301,20 +379,31 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         Filtered { found, open: !certain & is_present(&triangles) }
     }
 
+    /// Asks a scalar kernel about all lanes.
+    #[inline(never)]
+    fn lane_by_lane<V: Vector<Scalar = T>>(
+        &self,
+        intersect: impl Fn(&Triangle<V>) -> Option<TriangleHit<T>>,
+    ) -> TriangleHits<T, N> {
+        let nothing = [T::ZERO; N];
+        let mut hits = TriangleHits { t: nothing, u: nothing, v: nothing, front: 0, mask: 0 };
+        self.ask(u32::MAX, &mut hits, intersect);
+        hits
+    }
+
     /// Asks a scalar kernel about the lanes in `open`.
     #[cold]
     #[inline(never)]
     fn ask<V: Vector<Scalar = T>>(
         &self,
-        ray: &Ray<V>,
         open: u32,
         hits: &mut TriangleHits<T, N>,
-        intersect: impl Fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<T>>,
+        intersect: impl Fn(&Triangle<V>) -> Option<TriangleHit<T>>,
     ) {
         for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
             let bit = 1 << lane;
             hits.mask &= !bit;
-            if let Some(hit) = intersect(ray, &self.get::<V>(lane)) {
+            if let Some(hit) = intersect(&self.get(lane)) {
                 (hits.t[lane], hits.u[lane], hits.v[lane]) = (hit.t, hit.u, hit.v);
                 hits.front = hits.front & !bit | u32::from(hit.front) << lane;
                 hits.mask |= bit;

@@ -15,16 +15,16 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct ShearedRay<V: Coordinates = Vec3> {
-    origin: V,
+    pub(crate) origin: V,
     /// The axis of the direction's largest component: 0, 1 or 2.
-    axis: u32,
+    pub(crate) axis: u32,
     /// The direction's next two components, cyclically, over the largest.
-    shear: [V::Scalar; 2],
+    pub(crate) shear: [V::Scalar; 2],
     /// `z · inverse · t_scale` is t at depth z along the axis; `t_scale` is 1 but for directions of
     /// extreme length.
-    inverse: V::Scalar,
-    t_scale: V::Scalar,
-    t_min: V::Scalar,
+    pub(crate) inverse: V::Scalar,
+    pub(crate) t_scale: V::Scalar,
+    pub(crate) t_min: V::Scalar,
     /// The greatest t that counts, as in [`Ray::t_max`]; a traversal lowers it to the closest hit
     /// so far.
     pub t_max: V::Scalar,
@@ -57,11 +57,13 @@ impl<V: Vector> ShearedRay<V> {
             t_max: ray.t_max,
         }
     }
+}
 
+impl<V: Coordinates> ShearedRay<V> {
     /// The triangle in the sheared space with the origin at zero and the ray along z, as the x, y
     /// and z of its three vertices.
     #[inline(always)]
-    fn sheared(&self, triangle: &Triangle<V>) -> Sheared<V> {
+    pub(crate) fn sheared(&self, triangle: &Triangle<V>) -> Sheared<V> {
         let a = triangle.v0 - self.origin;
         let b = triangle.v1 - self.origin;
         let c = triangle.v2 - self.origin;
@@ -123,19 +125,47 @@ pub fn intersect<V: Vector>(
 }
 
 /// x, y and z of the three vertices.
-struct Sheared<V> {
+pub(crate) struct Sheared<V> {
     x: V,
     y: V,
     z: V,
 }
 
+impl<V: Coordinates> Sheared<V> {
+    /// The three edge functions as computed, each named after the vertex across: one that is not zero has the
+    /// exact sign, as rounding keeps the order of the two products.
+    #[inline(always)]
+    pub(crate) fn rounded_weights(&self) -> V {
+        self.y.cross(self.x)
+    }
+
+    /// What the weights and their sum say.
+    #[inline(always)]
+    pub(crate) fn found(
+        &self,
+        ray: &ShearedRay<V>,
+        weights: V,
+        determinant: V::Scalar,
+    ) -> Found<V::Scalar> {
+        let zero = determinant.lit(0.0);
+        let inverse = determinant.lit(1.0) / determinant;
+        let scaled = weights * inverse;
+        let (w, u, v) = (scaled.x(), scaled.y(), scaled.z());
+        let t = scaled.dot(self.z) * ray.inverse * ray.t_scale;
+        let inside = zero.le(w) & zero.le(u) & zero.le(v);
+        let hit = inside & in_range(t, ray.t_min, ray.t_max);
+        // Looking along the axis, or against it, the vertices turn the other way.
+        let (positive, along) = (zero.lt(determinant), zero.lt(ray.inverse));
+        let front = (positive & along) | !(positive | along);
+        Found { hit, t, u, v, front }
+    }
+}
+
 impl<V: Vector> Sheared<V> {
-    /// The three edge functions, each named after the vertex across, with exact signs.
+    /// The three edge functions with exact signs.
     #[inline(always)]
     fn weights(&self) -> V {
-        // A difference of rounded products that is not zero has the sign of the exact one:
-        // rounding keeps order.
-        let weights = self.y.cross(self.x);
+        let weights = self.rounded_weights();
         let zero = V::Scalar::ZERO;
         if weights.x() == zero || weights.y() == zero || weights.z() == zero {
             return self.weights_of_zero();
@@ -151,20 +181,6 @@ impl<V: Vector> Sheared<V> {
             difference_of_products(y.z(), x.x(), y.x(), x.z()),
             difference_of_products(y.x(), x.y(), y.y(), x.x()),
         )
-    }
-
-    #[inline(always)]
-    fn found(&self, ray: &ShearedRay<V>, weights: V, determinant: V::Scalar) -> Found<V::Scalar> {
-        let zero = V::Scalar::ZERO;
-        let inverse = V::Scalar::ONE / determinant;
-        let scaled = weights * inverse;
-        let (w, u, v) = (scaled.x(), scaled.y(), scaled.z());
-        let t = scaled.dot(self.z) * ray.inverse * ray.t_scale;
-        let inside = zero.le(w) & zero.le(u) & zero.le(v);
-        let hit = inside & in_range(t, ray.t_min, ray.t_max);
-        // Looking along the axis, or against it, the vertices turn the other way.
-        let front = zero.lt(determinant) == zero.lt(ray.inverse);
-        Found { hit, t, u, v, front }
     }
 }
 
