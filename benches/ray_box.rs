@@ -15,7 +15,7 @@ use kernels::Kernels;
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     for hit_rate in [0.1, 0.5] {
-        let pairs = data::ray_box(hit_rate);
+        let pairs = data::ray_box(data::FEW, hit_rate);
         let name = format!("ray_box, {:.0} % hits", 100.0 * hit_rate);
         let mut kernels = Kernels::new(&mut criterion, &name);
         time(&mut kernels, "Vec3A", &converted::<Vec3A>(&pairs));

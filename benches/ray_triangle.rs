@@ -16,7 +16,7 @@ use kernels::Kernels;
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     for (hit_rate, size) in [(0.1, 1.0), (0.5, 1.0), (0.1, 0.01), (0.5, 0.01)] {
-        let pairs = data::ray_triangle(hit_rate, size);
+        let pairs = data::ray_triangle(data::FEW, hit_rate, size);
         let name = format!("ray_triangle, {:.0} % hits, size {size}", 100.0 * hit_rate);
         let mut kernels = Kernels::new(&mut criterion, &name);
         time(&mut kernels, "Vec3A", &converted::<Vec3A>(&pairs));

@@ -14,12 +14,14 @@ use isect::{Aabb, Ray, Triangle};
 /// The number of pairs in a set of queries.
 pub(crate) const PAIRS: usize = 32_768;
 
-/// The number of pairs with the same first part.
-const PER_FIRST: usize = 8;
+/// The number of pairs with the same first part, as a rule.
+pub(crate) const FEW: usize = 8;
 
 /// A set of queries: each of the first parts (rays, say) against some second parts (triangles).
 pub(crate) struct Pairs<A, B> {
     first: Vec<A>,
+    /// How many second parts each first one has.
+    per_first: usize,
     /// Those of the first `first`, then those of the second, and so on.
     second: Vec<B>,
 }
@@ -33,23 +35,31 @@ impl<A, B> Pairs<A, B> {
     ) -> Pairs<C, D> {
         let mut seconds = Vec::with_capacity(self.second.len());
         self.for_each(|a, b| seconds.push(second(a, b)));
-        Pairs { first: self.first.iter().map(first).collect(), second: seconds }
+        Pairs {
+            first: self.first.iter().map(first).collect(),
+            per_first: self.per_first,
+            second: seconds,
+        }
     }
 
-    /// Each of the first parts with all of its second parts at once.
+    /// Each of the first parts with its second parts, packed by so many.
     pub(crate) fn packed<C, D>(
         &self,
+        lanes: usize,
         first: impl Fn(&A) -> C,
         pack: impl Fn(&[B]) -> D,
-    ) -> Vec<(C, D)> {
-        let packs = self.second.chunks_exact(PER_FIRST).map(pack);
+    ) -> Vec<(C, Vec<D>)> {
+        let packs = self
+            .second
+            .chunks_exact(self.per_first)
+            .map(|some| some.chunks(lanes).map(&pack).collect());
         self.first.iter().map(first).zip(packs).collect()
     }
 
     /// Calls `visit` with each pair in turn.
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(&A, &B)) {
-        for (a, some) in self.first.iter().zip(self.second.chunks_exact(PER_FIRST)) {
+        for (a, some) in self.first.iter().zip(self.second.chunks_exact(self.per_first)) {
             for b in some {
                 visit(a, b);
             }
@@ -60,14 +70,15 @@ impl<A, B> Pairs<A, B> {
 /// Draws pairs, of which the fraction `rate` has the verdict `true`.
 fn draw<A, B>(
     rate: f32,
+    per_first: usize,
     mut first: impl FnMut(&mut Random) -> A,
     mut second: impl FnMut(&mut Random, &A, bool) -> B,
 ) -> Pairs<A, B> {
     let mut random = Random(fastrand::Rng::with_seed(1));
     let mut verdicts: Vec<bool> = (0..PAIRS).map(|i| (i as f32) < rate * PAIRS as f32).collect();
     random.0.shuffle(&mut verdicts);
-    let mut pairs = Pairs { first: Vec::new(), second: Vec::new() };
-    for verdicts in verdicts.chunks(PER_FIRST) {
+    let mut pairs = Pairs { first: Vec::new(), per_first, second: Vec::new() };
+    for verdicts in verdicts.chunks(per_first) {
         let a = first(&mut random);
         pairs.second.extend(verdicts.iter().map(|&hit| second(&mut random, &a, hit)));
         pairs.first.push(a);
@@ -76,13 +87,13 @@ fn draw<A, B>(
 }
 
 /// Rays of unit direction, and triangles with vertices in a cube of side `size` at a distance of
-/// 1 to 3, of which they hit the fraction `hit_rate`.
+/// 1 to 3, of which they hit the fraction `hit_rate`: so many triangles for each ray.
 ///
 /// The triangle is placed so that the ray goes for a given point of its plane: one inside for a
 /// hit; for a miss one outside with weights within 1.5 of the centroid's, or, one in eight, a
 /// triangle behind the origin.
-pub(crate) fn ray_triangle(hit_rate: f32, size: f32) -> Pairs<Ray, Triangle> {
-    draw(hit_rate, Random::ray, |random, ray, hit| {
+pub(crate) fn ray_triangle(per_ray: usize, hit_rate: f32, size: f32) -> Pairs<Ray, Triangle> {
+    draw(hit_rate, per_ray, Random::ray, |random, ray, hit| {
         loop {
             let shape: Triangle = [(); 3].map(|()| random.point(0.5 * size)).into();
             let behind = !hit && random.one_in(8);
@@ -99,12 +110,12 @@ pub(crate) fn ray_triangle(hit_rate: f32, size: f32) -> Pairs<Ray, Triangle> {
 }
 
 /// Rays of unit direction, and boxes with sides of 0.1 to 1 at a distance of 1 to 3, of which they
-/// hit the fraction `hit_rate`.
+/// hit the fraction `hit_rate`: so many boxes for each ray.
 ///
 /// The box is placed so that the ray goes for a point in it for a hit, or for one in a box of
 /// three times the size for a miss, or, one miss in eight, it lies behind the origin.
-pub(crate) fn ray_box(hit_rate: f32) -> Pairs<Ray, Aabb> {
-    draw(hit_rate, Random::ray, |random, ray, hit| {
+pub(crate) fn ray_box(per_ray: usize, hit_rate: f32) -> Pairs<Ray, Aabb> {
+    draw(hit_rate, per_ray, Random::ray, |random, ray, hit| {
         loop {
             let half = random.half_extents();
             let behind = !hit && random.one_in(8);
@@ -131,7 +142,7 @@ pub(crate) fn triangle_box(overlap_rate: f32) -> Pairs<Aabb, Triangle> {
         let (center, half) = (random.point(1.0), random.half_extents());
         Aabb::new(center - half, center + half)
     };
-    draw(overlap_rate, aabb, |random, aabb, overlap| {
+    draw(overlap_rate, FEW, aabb, |random, aabb, overlap| {
         loop {
             let center = aabb.center() + random.point(reach);
             let triangle: Triangle = [(); 3].map(|()| center + random.point(0.5)).into();

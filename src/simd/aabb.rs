@@ -24,8 +24,8 @@ use crate::vector::{Number, Vector};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct AabbPack<T, const N: usize> {
-    /// The least and the greatest coordinates, by axis and lane. An empty box is from ∞ to −∞.
-    bounds: [[[T; N]; 3]; 2],
+    /// By axis and lane, the least and the greatest coordinates. An empty box is from ∞ to −∞.
+    bounds: [[[T; N]; 2]; 3],
 }
 
 /// Which boxes of a pack a ray may hit, and where it enters them.
@@ -41,7 +41,7 @@ pub struct AabbHits<T, const N: usize> {
 /// Nothing but empty lanes.
 impl<T: Lanes<N>, const N: usize> Default for AabbPack<T, N> {
     fn default() -> Self {
-        Self { bounds: [[[T::INFINITY; N]; 3], [[-T::INFINITY; N]; 3]] }
+        Self { bounds: [[[T::INFINITY; N], [-T::INFINITY; N]]; 3] }
     }
 }
 
@@ -58,8 +58,8 @@ impl<T: Lanes<N>, const N: usize> AabbPack<T, N> {
         let mut pack = Self::default();
         for (lane, aabb) in aabbs.iter().enumerate().filter(|(_, aabb)| !aabb.is_empty()) {
             for axis in 0..3 {
-                pack.bounds[0][axis][lane] = aabb.min.component(axis);
-                pack.bounds[1][axis][lane] = aabb.max.component(axis);
+                pack.bounds[axis][0][lane] = aabb.min.component(axis);
+                pack.bounds[axis][1][lane] = aabb.max.component(axis);
             }
         }
         pack
@@ -72,8 +72,8 @@ impl<T: Lanes<N>, const N: usize> AabbPack<T, N> {
         if lane >= N {
             return Aabb::EMPTY;
         }
-        let [min, max] = self.bounds.each_ref().map(|bound| {
-            let [x, y, z] = bound.each_ref().map(|axis| axis[lane]);
+        let [min, max] = [0, 1].map(|side| {
+            let [x, y, z] = self.bounds.each_ref().map(|axis| axis[side][lane]);
             V::new(x, y, z)
         });
         Aabb::new(min, max)
@@ -97,33 +97,47 @@ impl<T: Lanes<N>, const N: usize> AabbPack<T, N> {
         simd: S,
         ray: &BoxRay<V>,
     ) -> AabbHits<T, N> {
-        if is_scalar(simd) || ray.extreme | ray.before_origin {
-            return self.lane_by_lane(ray);
+        if is_scalar(simd) {
+            return self.lane_by_lane(*ray);
         }
+        let (t_enter, mask) = if ray.extreme | ray.before_origin {
+            // Back into registers, so that the answer is not stored twice where it is not from here.
+            let hits = self.lane_by_lane(*ray);
+            (T::load(simd, &hits.t_enter), hits.mask)
+        } else {
+            self.bounds(simd, ray)
+        };
+        AabbHits { t_enter: T::store::<S>(t_enter), mask }
+    }
+
+    /// The last entries, and which of them do not come after the first exit.
+    #[inline(always)]
+    fn bounds<S: Simd, V: Vector<Scalar = T>>(
+        &self,
+        simd: S,
+        ray: &BoxRay<V>,
+    ) -> (T::Wide<S>, u32) {
         // The order of the scalar kernel's folds. For a parallel ray in a plane of the box a bound is 0 · ∞, a
         // NaN, which `min` and `max` drop in their first operand.
         let (mut enter, mut exit) = (splat(simd, ray.t_min), splat(simd, ray.t_max));
         for axis in 0..3 {
             let backward = usize::from(ray.entry_side[axis] & 1);
-            let origin = splat(simd, ray.origin.component(axis));
-            let near = T::load(simd, &self.bounds[backward][axis]) - origin;
-            let far = T::load(simd, &self.bounds[backward ^ 1][axis]) - origin;
+            let negated_origin = splat(simd, ray.negated_origin.component(axis));
+            let near = T::load(simd, &self.bounds[axis][backward]) + negated_origin;
+            let far = T::load(simd, &self.bounds[axis][backward ^ 1]) + negated_origin;
             enter = (near * splat(simd, ray.near_inverse.component(axis))).max(enter);
             exit = (far * splat(simd, ray.far_inverse.component(axis))).min(exit);
         }
-        AabbHits {
-            mask: <T as Lanes<N>>::bits::<S>(enter.le(exit)),
-            t_enter: <T as Lanes<N>>::store::<S>(enter.min(enter.largest())),
-        }
+        (enter.min(enter.largest()), <T as Lanes<N>>::bits::<S>(enter.le(exit)))
     }
 
     /// The same by the scalar kernel.
     #[cold]
     #[inline(never)]
-    fn lane_by_lane<V: Vector<Scalar = T>>(&self, ray: &BoxRay<V>) -> AabbHits<T, N> {
+    fn lane_by_lane<V: Vector<Scalar = T>>(&self, ray: BoxRay<V>) -> AabbHits<T, N> {
         let mut hits = AabbHits { mask: 0, t_enter: [T::ZERO; N] };
         for (lane, t_enter) in hits.t_enter.iter_mut().enumerate() {
-            if let Some([enter, _]) = conservative::interval(ray, &self.get::<V>(lane)) {
+            if let Some([enter, _]) = conservative::interval(&ray, &self.get::<V>(lane)) {
                 hits.mask |= 1 << lane;
                 *t_enter = enter;
             }

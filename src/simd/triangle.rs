@@ -137,18 +137,13 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         ray: &Ray<V>,
     ) -> TriangleHits<T, N> {
         if is_scalar(simd) {
-            return self.lane_by_lane::<V>(|triangle| moller_trumbore::intersect(ray, triangle));
+            return self.lane_by_lane(*ray, moller_trumbore::intersect::<V>);
         }
         let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd, [0, 1, 2]));
         let solution = moller_trumbore::solve(&Frame::new(&lanes, &triangles));
-        let open = !solution.is_trustworthy() & is_present(&triangles);
-        // The stores come first: after `bits` they were compiled into a copy, at twice the time.
-        let mut hits = collected::<T, S, N>(solution.clipped(lanes.t_min, lanes.t_max));
-        let open = T::bits::<S>(open);
-        if open != 0 {
-            self.ask::<V>(open, &mut hits, |triangle| moller_trumbore::intersect(ray, triangle));
-        }
-        hits
+        let open = T::bits::<S>(!solution.is_trustworthy() & is_present(&triangles));
+        let found = solution.clipped(lanes.t_min, lanes.t_max);
+        self.settled(simd, *ray, found, open, moller_trumbore::intersect::<V>)
     }
 
     /// Where the ray meets each triangle, in the closed range of the ray.
@@ -182,17 +177,13 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         ray: &ShearedRay<V>,
     ) -> TriangleHits<T, N> {
         if is_scalar(simd) {
-            return self.lane_by_lane::<V>(|triangle| watertight::intersect(ray, triangle));
+            return self.lane_by_lane(*ray, watertight::intersect::<V>);
         }
         // The axes in the order in which the shear wants them: it is along the last.
-        let axes = [(ray.axis as usize + 1) % 3, (ray.axis as usize + 2) % 3, ray.axis as usize];
-        let origin = ray.origin;
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][ray.axis as usize % 3];
         let lanes = ShearedRay {
-            origin: Columns {
-                x: splat(simd, origin.component(axes[0])),
-                y: splat(simd, origin.component(axes[1])),
-                z: splat(simd, origin.component(axes[2])),
-            },
+            origin: Columns::of(simd, ray.turned_origin),
+            turned_origin: Columns::of(simd, ray.turned_origin),
             axis: 2,
             shear: [splat(simd, ray.shear[0]), splat(simd, ray.shear[1])],
             inverse: splat(simd, ray.inverse),
@@ -206,13 +197,10 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         let determinant = weights.x() + weights.y() + weights.z();
         let zero = splat(simd, T::ZERO);
         let nonzero = zero.lt(weights.x().abs().min(weights.y().abs()).min(weights.z().abs()));
-        let open = !(nonzero & determinant.is_mid_range()) & is_present(&triangles);
-        let mut hits = collected::<T, S, N>(sheared.found(&lanes, weights, determinant));
-        let open = T::bits::<S>(open);
-        if open != 0 {
-            self.ask::<V>(open, &mut hits, |triangle| watertight::intersect(ray, triangle));
-        }
-        hits
+        let settled = nonzero & determinant.is_mid_range();
+        let open = T::bits::<S>(!settled & is_present(&triangles));
+        let found = sheared.found(&lanes, weights, determinant);
+        self.settled(simd, *ray, found, open, watertight::intersect::<V>)
     }
 
     /// Where the ray meets each triangle, in the closed range of the ray.
@@ -247,15 +235,11 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         ray: &Ray<V>,
     ) -> TriangleHits<T, N> {
         if is_scalar(simd) {
-            return self.lane_by_lane::<V>(|triangle| exact::intersect(ray, triangle));
+            return self.lane_by_lane(*ray, exact::intersect::<V>);
         }
         let Filtered { found, open } = self.filter(simd, ray);
-        let mut hits = collected::<T, S, N>(found);
         let open = T::bits::<S>(open);
-        if open != 0 {
-            self.ask::<V>(open, &mut hits, |triangle| exact::undecided(ray, triangle));
-        }
-        hits
+        self.settled(simd, *ray, found, open, exact::undecided::<V>)
     }
 
     /// The closest hit of [`Self::exact`], and its lane: [`TriangleHits::closest`], for less.
@@ -276,7 +260,7 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         let open = T::bits::<S>(open);
         if open != 0 {
             let mut hits = collected::<T, S, N>(found);
-            self.ask::<V>(open, &mut hits, |triangle| exact::undecided(ray, triangle));
+            self.ask(*ray, open, &mut hits, exact::undecided::<V>);
             return hits.closest();
         }
         let mask = T::bits::<S>(found.hit);
@@ -300,7 +284,7 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         }
         let Filtered { found, open } = self.filter(simd, ray);
         let (hit, open) = (T::bits::<S>(found.hit), T::bits::<S>(open));
-        hit & !open != 0 || (open != 0 && self.any_of(ray, open))
+        hit & !open != 0 || (open != 0 && self.any_of(*ray, open))
     }
 
     /// [`Self::closest`] for a caller without a level. Slow: a dispatch costs as much as some of these tests,
@@ -379,31 +363,59 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         Filtered { found, open: !certain & is_present(&triangles) }
     }
 
+    /// What is found, once a scalar kernel has been asked about the lanes in `open`.
+    ///
+    /// The lanes stay in registers but for that: an answer whose address is known to the later stages would be stored
+    /// twice.
+    #[inline(always)]
+    fn settled<S: Simd, V: Vector<Scalar = T>, R>(
+        &self,
+        simd: S,
+        ray: R,
+        found: Found<T::Wide<S>>,
+        open: u32,
+        intersect: impl Fn(&R, &Triangle<V>) -> Option<TriangleHit<T>>,
+    ) -> TriangleHits<T, N> {
+        let Found { mut t, mut u, mut v, .. } = found;
+        let (mut front, mut mask) = (T::bits::<S>(found.front), T::bits::<S>(found.hit));
+        if open != 0 {
+            let mut hits = collected::<T, S, N>(found);
+            self.ask(ray, open, &mut hits, intersect);
+            t = T::load(simd, &hits.t);
+            u = T::load(simd, &hits.u);
+            v = T::load(simd, &hits.v);
+            (front, mask) = (hits.front, hits.mask);
+        }
+        TriangleHits { t: T::store::<S>(t), u: T::store::<S>(u), v: T::store::<S>(v), front, mask }
+    }
+
     /// Asks a scalar kernel about all lanes.
     #[inline(never)]
-    fn lane_by_lane<V: Vector<Scalar = T>>(
+    fn lane_by_lane<V: Vector<Scalar = T>, R>(
         &self,
-        intersect: impl Fn(&Triangle<V>) -> Option<TriangleHit<T>>,
+        ray: R,
+        intersect: impl Fn(&R, &Triangle<V>) -> Option<TriangleHit<T>>,
     ) -> TriangleHits<T, N> {
         let nothing = [T::ZERO; N];
         let mut hits = TriangleHits { t: nothing, u: nothing, v: nothing, front: 0, mask: 0 };
-        self.ask(u32::MAX, &mut hits, intersect);
+        self.ask(ray, u32::MAX, &mut hits, intersect);
         hits
     }
 
     /// Asks a scalar kernel about the lanes in `open`.
     #[cold]
     #[inline(never)]
-    fn ask<V: Vector<Scalar = T>>(
+    fn ask<V: Vector<Scalar = T>, R>(
         &self,
+        ray: R,
         open: u32,
         hits: &mut TriangleHits<T, N>,
-        intersect: impl Fn(&Triangle<V>) -> Option<TriangleHit<T>>,
+        intersect: impl Fn(&R, &Triangle<V>) -> Option<TriangleHit<T>>,
     ) {
         for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
             let bit = 1 << lane;
             hits.mask &= !bit;
-            if let Some(hit) = intersect(&self.get(lane)) {
+            if let Some(hit) = intersect(&ray, &self.get(lane)) {
                 (hits.t[lane], hits.u[lane], hits.v[lane]) = (hit.t, hit.u, hit.v);
                 hits.front = hits.front & !bit | u32::from(hit.front) << lane;
                 hits.mask |= bit;
@@ -414,10 +426,10 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
     /// Whether the ray hits a triangle in the lanes of `open`.
     #[cold]
     #[inline(never)]
-    fn any_of<V: Vector<Scalar = T>>(&self, ray: &Ray<V>, open: u32) -> bool {
+    fn any_of<V: Vector<Scalar = T>>(&self, ray: Ray<V>, open: u32) -> bool {
         (0..N)
             .filter(|lane| (open >> lane) & 1 == 1)
-            .any(|lane| exact::undecided(ray, &self.get::<V>(lane)).is_some())
+            .any(|lane| exact::undecided(&ray, &self.get::<V>(lane)).is_some())
     }
 }
 

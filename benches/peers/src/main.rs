@@ -13,6 +13,7 @@ mod contender;
 mod data;
 #[path = "../../../examples/verify/kernels.rs"]
 mod kernels;
+mod packs;
 mod peer;
 mod ray_box;
 mod ray_triangle;
@@ -63,8 +64,11 @@ fn main() -> ExitCode {
     }
     let rounds = if options.quick { 3 } else { options.rounds };
     println!("{}", report::machine());
-    let questions =
-        ray_triangle::questions().chain(ray_box::questions()).chain(triangle_box::questions());
+    let questions = ray_triangle::questions()
+        .chain(ray_box::questions())
+        .chain(triangle_box::questions())
+        .chain(packs::triangle_questions())
+        .chain(packs::box_questions());
     for mut question in questions.filter(|q| q.title.contains(&options.question)) {
         question.contenders.retain(|c| c.is_reference || c.name.contains(&options.filter));
         let results = timing::race(&question.contenders, rounds);

@@ -2,19 +2,17 @@
 
 use isect::glam::{Vec3, Vec3A};
 use isect::ray::aabb::{BoxRay, conservative, exact, slab};
-use isect::simd::AabbPack;
-use isect::simd::fearless_simd::{Level, dispatch};
 use isect::{Aabb, Ray};
 use parry3d::query::RayCast;
 
 use crate::data::{self, Pairs};
 use crate::peer;
-use crate::timing::{Contender, Question, ask_packs, stages};
+use crate::timing::{Contender, Question, stages};
 
 /// Two hit rates.
 pub fn questions() -> impl Iterator<Item = Question> {
     [0.1, 0.5].into_iter().map(|hit_rate| {
-        let pairs = data::ray_box(hit_rate);
+        let pairs = data::ray_box(data::FEW, hit_rate);
         Question {
         title: format!("ray/box, {:.0} % hits", 100.0 * hit_rate),
         note: "obvhs, parry3d answer with the t of the entry (obvhs for the whole line, without the \
@@ -33,10 +31,6 @@ fn contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
     let vec3a = || {
         pairs.map(|ray| BoxRay::<Vec3A>::new(&(*ray).into()), |_, aabb| Aabb::<Vec3A>::from(*aabb))
     };
-    let (level, packs) = (
-        Level::new(),
-        pairs.packed(|ray| BoxRay::<Vec3A>::new(&(*ray).into()), AabbPack::<f32, 8>::from_aabbs),
-    );
     vec![
         Contender::new(
             "obvhs `Aabb::intersect_ray`",
@@ -73,14 +67,6 @@ fn contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
             conservative::interval,
             Option::is_some,
         ),
-        Contender::with_pass("isect `AabbPack::conservative` × 8", move || {
-            dispatch!(level, simd => ask_packs(
-                &packs,
-                #[inline(always)]
-                |ray, pack| pack.conservative(simd, ray),
-                |hits| hits.mask.count_ones(),
-            ))
-        }),
         Contender::new(
             "isect `conservative::interval`, Vec3",
             vec3(),

@@ -3,20 +3,18 @@
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::ray::triangle::watertight::ShearedRay;
 use isect::ray::triangle::{badouel, exact, moller_trumbore, segura, watertight};
-use isect::simd::TrianglePack;
-use isect::simd::fearless_simd::{Level, dispatch};
 use isect::{Ray, Triangle};
 use parry3d::query::RayCast;
 
 use crate::data::{self, Pairs};
 use crate::peer;
-use crate::timing::{Contender, Question, ask_packs, stages};
+use crate::timing::{Contender, Question, stages};
 
 /// Two hit rates and two sizes.
 pub fn questions() -> impl Iterator<Item = Question> {
     let cases = [(0.1, 1.0), (0.5, 1.0), (0.1, 0.01), (0.5, 0.01)];
     cases.into_iter().map(|(hit_rate, size)| {
-        let pairs = data::ray_triangle(hit_rate, size);
+        let pairs = data::ray_triangle(data::FEW, hit_rate, size);
         Question {
         title: format!(
             "ray/triangle, {:.0} % hits, triangles of size {size} at a distance of 1 to 3",
@@ -33,10 +31,6 @@ pub fn questions() -> impl Iterator<Item = Question> {
 }
 
 fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
-    let packs =
-        || pairs.packed(|ray| Ray::<Vec3A>::from(*ray), TrianglePack::<f32, 8>::from_triangles);
-    let (level, [moller_trumbore_8, exact_8, closest_8]) =
-        (Level::new(), [(); 3].map(|()| packs()));
     let vec3 = || pairs.map(|ray| *ray, |_, triangle| *triangle);
     let vec3a = || {
         pairs.map(|ray| Ray::<Vec3A>::from(*ray), |_, triangle| Triangle::<Vec3A>::from(*triangle))
@@ -103,30 +97,6 @@ fn contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
             exact::intersect,
             Option::is_some,
         ),
-        Contender::with_pass("isect `TrianglePack::moller_trumbore` × 8", move || {
-            dispatch!(level, simd => ask_packs(
-                &moller_trumbore_8,
-                #[inline(always)]
-                |ray, pack| pack.moller_trumbore(simd, ray),
-                |hits| hits.mask.count_ones(),
-            ))
-        }),
-        Contender::with_pass("isect `TrianglePack::exact` × 8", move || {
-            dispatch!(level, simd => ask_packs(
-                &exact_8,
-                #[inline(always)]
-                |ray, pack| pack.exact(simd, ray),
-                |hits| hits.mask.count_ones(),
-            ))
-        }),
-        Contender::with_pass("isect `TrianglePack::closest` × 8 (hits: of packs)", move || {
-            dispatch!(level, simd => ask_packs(
-                &closest_8,
-                #[inline(always)]
-                |ray, pack| pack.closest(simd, ray),
-                |hit| u32::from(hit.is_some()),
-            ))
-        }),
         Contender::new("isect `segura::detects`, Vec3A", vec3a(), segura::detects, |hit| *hit),
         Contender::new(
             "isect `segura::intersect`, Vec3A",

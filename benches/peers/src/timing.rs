@@ -68,18 +68,25 @@ impl Contender {
     }
 }
 
-/// Asks `query` about packs of pairs, each behind a `black_box` as in [`Contender::new`]: to be called where
-/// the processor's level is known. (The whole answer by reference: it is long, and would be copied.)
+/// Asks `query` about all packs, and writes the answers down as a caller would: to be called where the processor's level
+/// is known. As in a traversal the ray is a local variable for all of its packs.
 #[inline(always)]
-pub fn ask_packs<A, P, T>(
-    packs: &[(A, P)],
+pub fn ask_packs<A: Copy, P, T: Copy>(
+    packs: &[(A, Vec<P>)],
     query: impl Fn(&A, &P) -> T,
     hits: impl Fn(&T) -> u32,
 ) -> usize {
+    let Some((a, [pack, ..])) = packs.first().map(|(a, packs)| (a, packs.as_slice())) else {
+        return 0;
+    };
+    let mut answers = vec![query(a, pack); packs[0].1.len()];
     let mut count = 0;
-    for (a, pack) in packs {
-        let answer = query(black_box(a), black_box(pack));
-        count += hits(black_box(&answer)) as usize;
+    for (a, packs) in packs {
+        let a = *black_box(a);
+        for (pack, answer) in black_box(packs).iter().zip(&mut answers) {
+            *answer = query(&a, pack);
+        }
+        count += black_box(&answers).iter().map(&hits).sum::<u32>() as usize;
     }
     count
 }

@@ -129,7 +129,7 @@ fn within_floats<V: Vector>(
 #[inline(never)]
 fn decide<V: Vector>(ray: &BoxRay<V>, aabb: &Aabb<V>) -> bool {
     let problem = Problem {
-        origin: wide(ray.origin).to_array(),
+        origin: wide(-ray.negated_origin).to_array(),
         direction: wide(ray.direction).to_array(),
         t_min: ray.t_min.into(),
         t_max: ray.t_max.into(),

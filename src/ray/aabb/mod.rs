@@ -76,7 +76,8 @@ impl<V: Vector> Intersect<V> for Aabb<V> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct BoxRay<V: Coordinates = Vec3> {
-    pub(crate) origin: V,
+    /// −origin: a plane plus it is a vector addition with an operand in memory, in a pack.
+    pub(crate) negated_origin: V,
     direction: V,
     /// 1 / direction, rounded to nearest.
     inverse: V,
@@ -132,7 +133,7 @@ impl<V: Vector> BoxRay<V> {
         let is_normal = V::splat(V::Scalar::MIN_POSITIVE).all_le(magnitudes)
             & magnitudes.all_le(V::splat(V::Scalar::MAX));
         Self {
-            origin,
+            negated_origin: -origin,
             direction,
             inverse,
             near_inverse: inverse * (V::Scalar::ONE - margin),
@@ -151,8 +152,8 @@ impl<V: Vector> BoxRay<V> {
     #[inline(always)]
     fn differences(&self, aabb: &Aabb<V>) -> (V, V) {
         (
-            V::select(self.backward, aabb.max, aabb.min) - self.origin,
-            V::select(self.backward, aabb.min, aabb.max) - self.origin,
+            V::select(self.backward, aabb.max, aabb.min) + self.negated_origin,
+            V::select(self.backward, aabb.min, aabb.max) + self.negated_origin,
         )
     }
 
@@ -165,7 +166,7 @@ impl<V: Vector> BoxRay<V> {
         let half = V::Scalar::ONE.lit(0.5);
         let bounds = |axis: usize| {
             let (min, max) = (aabb.min.component(axis), aabb.max.component(axis));
-            let (o, d) = (self.origin.component(axis), self.direction.component(axis));
+            let (o, d) = (-self.negated_origin.component(axis), self.direction.component(axis));
             if d == V::Scalar::ZERO {
                 let inside = min <= o && o <= max;
                 return if inside { (-infinity, infinity) } else { (infinity, -infinity) };
