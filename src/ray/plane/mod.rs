@@ -50,10 +50,19 @@ impl<V: Vector> Intersect<V> for Plane<V> {
 #[inline]
 #[must_use]
 pub fn intersect<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V::Scalar>> {
-    certain(ray, plane).unwrap_or_else(|| undecided(ray, plane))
+    let Certain { open, hit, t } = certain(ray, plane, V::Scalar::EPSILON, V::Scalar::MIN_POSITIVE);
+    if open { undecided(ray, plane) } else { hit.then_some(PlaneHit::At(t)) }
 }
 
-/// The outcome if it is certain; it is not for a ray that is parallel to the plane.
+/// What is certain, in one lane or several: where `open` holds, nothing.
+pub(crate) struct Certain<N: Number> {
+    pub(crate) open: N::Mask,
+    pub(crate) hit: N::Mask,
+    pub(crate) t: N,
+}
+
+/// The outcome if it is certain; it is not for a ray that is parallel to the plane. `epsilon` and `tiny` are
+/// EPSILON and the smallest normal number.
 ///
 /// Of N each product carries 4 roundings, of D 3; the bounds have 6 of each, to outweigh terms of second
 /// order and their own rounding, and, as they are above the smallest normal number, what underflow loses, 3
@@ -62,30 +71,36 @@ pub fn intersect<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V
 /// that side of an end of the range on which it seems to be if it is further off than that over |D|, and
 /// than its own rounding.
 #[inline(always)]
-fn certain<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<Option<PlaneHit<V::Scalar>>> {
+pub(crate) fn certain<V: Coordinates>(
+    ray: &Ray<V>,
+    plane: &Plane<V>,
+    epsilon: V::Scalar,
+    tiny: V::Scalar,
+) -> Certain<V::Scalar> {
     let Plane { normal, offset } = *plane;
     let numerator = offset - normal.dot(ray.origin);
     let denominator = normal.dot(ray.direction);
     let t = numerator / denominator;
 
-    let sizes = Coordinates::abs(normal);
-    let (roundings, tiny) = (V::Scalar::EPSILON * t.lit(3.0), V::Scalar::MIN_POSITIVE);
-    let numerator_error = roundings * (offset.abs() + sizes.dot(Coordinates::abs(ray.origin)));
-    let denominator_error = roundings * sizes.dot(Coordinates::abs(ray.direction));
+    let sizes = normal.abs();
+    let roundings = epsilon * t.lit(3.0);
+    let numerator_error = roundings * (offset.abs() + sizes.dot(ray.origin.abs()));
+    let denominator_error = roundings * sizes.dot(ray.direction.abs());
     let steepness = denominator.abs();
     let error = numerator_error + t.abs() * (denominator_error + roundings * steepness);
 
     let within = (t - ray.t_min).min(ray.t_max - t);
-    let is_certain = numerator_error.min(denominator_error) > tiny
-        && steepness > denominator_error
-        && (within * steepness).abs() > error
-        && ray.t_min <= ray.t_max;
-    is_certain.then(|| (within > V::Scalar::ZERO).then_some(PlaneHit::At(t)))
+    let is_certain = tiny.lt(numerator_error.min(denominator_error))
+        & denominator_error.lt(steepness)
+        & error.lt((within * steepness).abs())
+        & ray.t_min.le(ray.t_max);
+    Certain { open: !is_certain, hit: is_certain & t.lit(0.0).lt(within), t }
 }
 
+/// The outcome where floats leave it open, and for bad input.
 #[cold]
 #[inline(never)]
-fn undecided<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V::Scalar>> {
+pub(crate) fn undecided<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> Option<PlaneHit<V::Scalar>> {
     Some(match decide::outcome(ray, plane)? {
         PlaneHit::Contained => PlaneHit::Contained,
         PlaneHit::At(t) => PlaneHit::At(ray.nearest_in_range(t)),

@@ -54,7 +54,7 @@ pub fn roots<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[V::Scalar; 
 }
 
 /// The quadratic as each kernel gets it: `a = d²` and `b = f·d` are computed already.
-struct Quadratic<V: Coordinates> {
+pub(crate) struct Quadratic<V: Coordinates> {
     /// The direction.
     d: V,
     /// From the origin to the centre.
@@ -69,21 +69,30 @@ struct Quadratic<V: Coordinates> {
 
 impl<V: Coordinates> Quadratic<V> {
     #[inline(always)]
-    fn new(d: V, f: V, r: V::Scalar) -> Self {
+    pub(crate) fn new(d: V, f: V, r: V::Scalar) -> Self {
         Self { d, f, r, a: d.dot(d), f2: f.dot(f) }
+    }
+
+    /// Whether the radius is not negative, and squares and products stay in the middle of the range of
+    /// exponents.
+    #[inline(always)]
+    pub(crate) fn is_mid_range(&self) -> <V::Scalar as Number>::Mask {
+        let lengths = self.f2 + self.r * self.r;
+        self.a.is_mid_range()
+            & lengths.is_mid_range()
+            & (self.a * lengths).is_mid_range()
+            & self.r.lit(0.0).le(self.r)
     }
 }
 
 /// The roots in order, NaN where there are none.
 type Roots<N> = [N; 2];
 
-/// The quadratic, if its squares and products stay in the middle of the range of exponents.
+/// The quadratic, if it stays in the middle of the range of exponents.
 #[inline(always)]
 fn quadratic<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<Quadratic<V>> {
     let q = Quadratic::new(ray.direction, sphere.center - ray.origin, sphere.radius);
-    let lengths = q.f2 + q.r * q.r;
-    let mid_range = q.a.is_mid_range() & lengths.is_mid_range() & (q.a * lengths).is_mid_range();
-    (mid_range & V::Scalar::ZERO.le(q.r)).then_some(q)
+    q.is_mid_range().then_some(q)
 }
 
 /// The quadratic with the direction, and the lengths, brought to about 1 by powers of two, and these. `None`

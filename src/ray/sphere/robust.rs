@@ -41,16 +41,25 @@ pub fn intersect<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<SphereHi
     certain(ray, sphere).unwrap_or_else(|| undecided(ray, sphere))
 }
 
-/// What there is to know of a line and a sphere.
-struct Solution<T> {
-    near: T,
-    far: T,
+/// How closely a line passes the centre of a sphere, in one lane or several.
+pub(crate) struct Approach<N> {
+    /// f·d
+    b: N,
+    /// |q|
+    distance: N,
+    /// |f|
+    f: N,
     /// How much further from the centre the surface is than the line; it is off by at most `error`.
-    clearance: T,
+    clearance: N,
     /// 16u·(|f| + r)
-    error: T,
-    /// By how much each root may be off, if the clearance is more than four errors.
-    root_error: T,
+    error: N,
+}
+
+/// The roots, and by how much each may be off, if the clearance is more than four errors.
+struct Roots<N> {
+    near: N,
+    far: N,
+    error: N,
 }
 
 /// **The bounds.** u is EPSILON/2 and |f| stands for the distance from the origin to the centre. f has
@@ -61,52 +70,91 @@ struct Solution<T> {
 /// Of the other root, |f| − r is off by 3.5u|f|, which |s| ≥ |d|c, or ≥ |f·d| where the origin is far away,
 /// divides; it is the lesser one, so that
 /// the error of s counts no more than in the first: in all at most 48u(|f| + r)(r/c)/|d|. Taken are 64u.
-#[inline(always)]
-fn solve<T: Scalar, V: Coordinates<Scalar = T>>(q: &Quadratic<V>) -> Solution<T> {
-    let b = q.f.dot(q.d);
-    let perpendicular = q.f - q.d * (b / q.a);
-    let h = perpendicular.dot(perpendicular).sqrt();
-    let clearance = q.r - h;
-    // Of a line that passes by: as if it were a tangent.
-    let root = (q.a * ((q.r + h) * clearance)).max(T::ZERO).sqrt();
-    let f = q.f2.sqrt();
-    let c = (f + q.r) * (f - q.r);
-    let s = if b < T::ZERO { b - root } else { b + root };
-    let first = s / q.a;
-    // s is zero only where the ray starts at a tangent's touching point: both roots are zero then.
-    let second = if s == T::ZERO { s } else { c / s };
-    let error = (f + q.r) * (T::EPSILON * b.lit(8.0));
-    let root_error = error * b.lit(4.0) * (q.r / root);
-    Solution { near: first.min(second), far: first.max(second), clearance, error, root_error }
+impl<N: Number> Approach<N> {
+    #[inline(always)]
+    pub(crate) fn new<V: Coordinates<Scalar = N>>(q: &Quadratic<V>, epsilon: N) -> Self {
+        let b = q.f.dot(q.d);
+        let perpendicular = q.f - q.d * (b / q.a);
+        let distance = perpendicular.dot(perpendicular).sqrt();
+        let f = q.f2.sqrt();
+        let error = (f + q.r) * (epsilon * b.lit(8.0));
+        Self { b, distance, f, clearance: q.r - distance, error }
+    }
+
+    /// Whether the line passes by, for certain.
+    #[inline(always)]
+    fn misses(&self) -> N::Mask {
+        self.clearance.lt(-self.error)
+    }
+
+    #[inline(always)]
+    fn roots<V: Coordinates<Scalar = N>>(&self, q: &Quadratic<V>) -> Roots<N> {
+        let Self { b, distance, f, clearance, error } = *self;
+        let zero = b.lit(0.0);
+        // Of a line that passes by: as if it were a tangent.
+        let root = (q.a * ((q.r + distance) * clearance)).max(zero).sqrt();
+        let c = (f + q.r) * (f - q.r);
+        let s = b + N::select(b.lt(zero), -root, root);
+        let first = s / q.a;
+        // s is zero only where the ray starts at a tangent's touching point: both roots are zero then.
+        let second = N::select(s.abs().le(zero), s, c / s);
+        let error = error * b.lit(4.0) * (q.r / root);
+        Roots { near: first.min(second), far: first.max(second), error }
+    }
+
+    /// The verdict where it is certain, for a quadratic in the middle of the range of exponents.
+    #[inline(always)]
+    pub(crate) fn certain<V: Coordinates<Scalar = N>>(
+        &self,
+        q: &Quadratic<V>,
+        [t_min, t_max]: [N; 2],
+    ) -> Certain<N> {
+        let Roots { near, far, error } = self.roots(q);
+        let (zero, four) = (error.lit(0.0), error.lit(4.0));
+        let crosses = (self.error * four).lt(self.clearance) & t_min.le(t_max);
+        // In the range or not, and whether that is certain.
+        let near_within = (near - t_min).min(t_max - near);
+        let far_within = (far - t_min).min(t_max - far);
+        let (near_hits, far_hits) = (zero.lt(near_within), zero.lt(far_within));
+        let near_is_certain = error.lt(near_within.abs());
+        let far_is_certain = error.lt(far_within.abs());
+        let decided = crosses & near_is_certain & (near_hits | far_is_certain);
+        Certain {
+            open: !(self.misses() | decided),
+            hit: decided & (near_hits | far_hits),
+            t: N::select(near_hits, near, far),
+            leaving: !near_hits,
+        }
+    }
+}
+
+/// What is certain, in one lane or several: where `open` holds, nothing.
+pub(crate) struct Certain<N: Number> {
+    pub(crate) open: N::Mask,
+    pub(crate) hit: N::Mask,
+    pub(crate) t: N,
+    pub(crate) leaving: N::Mask,
 }
 
 /// The verdict if it is certain.
 #[inline(always)]
 fn certain<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<Option<SphereHit<V::Scalar>>> {
-    let Solution { near, far, clearance, error, root_error } =
-        solve(&super::quadratic(ray, sphere)?);
-    let Ray { t_min, t_max, .. } = *ray;
-    if clearance < -error {
+    let q = super::quadratic(ray, sphere)?;
+    let approach = Approach::new(&q, V::Scalar::EPSILON);
+    if approach.misses() {
         return Some(None);
     }
-    let four = error.lit(4.0);
-    if !(clearance > error * four && t_min <= t_max) {
-        return None;
-    }
-    // In the range or not, if that is certain.
-    let is_in_range = |t: V::Scalar| {
-        let within = (t - t_min).min(t_max - t);
-        (within.abs() > root_error).then_some(within > V::Scalar::ZERO)
-    };
-    if is_in_range(near)? {
-        return Some(Some(SphereHit { t: near, leaving: false }));
-    }
-    Some(is_in_range(far)?.then_some(SphereHit { t: far, leaving: true }))
+    let Certain { open, hit, t, leaving } = approach.certain(&q, [ray.t_min, ray.t_max]);
+    (!open).then(|| hit.then_some(SphereHit { t, leaving }))
 }
 
+/// The verdict where floats leave it open, and for bad input.
 #[cold]
 #[inline(never)]
-fn undecided<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<SphereHit<V::Scalar>> {
+pub(crate) fn undecided<V: Vector>(
+    ray: &Ray<V>,
+    sphere: &Sphere<V>,
+) -> Option<SphereHit<V::Scalar>> {
     let leaving = match decide::classify(ray, sphere)? {
         [Ordering::Equal, _] => false,
         [_, Ordering::Equal] => true,
@@ -120,16 +168,17 @@ fn undecided<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<SphereHit<V:
 /// Both roots of the line, or those of a tangent where it seems to pass by. `None` for bad input.
 fn scaled_roots<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[V::Scalar; 2]> {
     let (q, t_scale, scale) = super::scaled(ray, sphere)?;
-    let Solution { near, far, .. } = solve(&q);
+    let Roots { near, far, .. } = Approach::new(&q, V::Scalar::EPSILON).roots(&q);
     Some([near, far].map(|t| t.times_ratio(t_scale, scale)))
 }
 
 /// Both roots of the line, `None` where it misses.
 pub(super) fn roots<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<[V::Scalar; 2]> {
     if let Some(q) = super::quadratic(ray, sphere) {
-        let Solution { near, far, clearance, error, .. } = solve(&q);
-        if clearance.abs() > error {
-            return (clearance > V::Scalar::ZERO).then_some([near, far]);
+        let approach = Approach::new(&q, V::Scalar::EPSILON);
+        if approach.clearance.abs() > approach.error {
+            let Roots { near, far, .. } = approach.roots(&q);
+            return (approach.clearance > V::Scalar::ZERO).then_some([near, far]);
         }
     }
     let line = ray.with_range(-V::Scalar::INFINITY, V::Scalar::INFINITY);
