@@ -1,4 +1,5 @@
-//! Several shapes at once: packs of triangles and boxes for the leaves and nodes of a hierarchy.
+//! Several shapes or rays at once: packs of triangles and boxes for the leaves and nodes of a hierarchy, and packets
+//! of rays.
 //!
 //! A pack holds up to `N` shapes as a structure of arrays, one per lane of the processor's vectors. A ray is
 //! held against all of them at once, by the bodies of the scalar kernels where one body serves both. Each lane
@@ -9,6 +10,19 @@
 //! | [`AabbPack`] | [`AabbPack::conservative`]: mask and entries | conservative |
 //! | [`TrianglePack`] | [`TrianglePack::exact`], [`TrianglePack::closest`], [`TrianglePack::any`] | exact |
 //! | | [`TrianglePack::moller_trumbore`] | fast |
+//!
+//! # Packets
+//!
+//! A [`RayPack`] holds `N` rays in the same way, for rays that go together, as those from a camera or to a light do:
+//! one box or shape is held against all of them.
+//!
+//! | shape | kernel | grade |
+//! |---|---|---|
+//! | box | [`RayPack::conservative`]: mask and entries | conservative |
+//! | triangle | [`RayPack::exact`], [`RayPack::exact_hits`] | exact |
+//! | | [`RayPack::moller_trumbore`] | fast |
+//! | sphere | [`RayPack::robust`] | exact |
+//! | plane | [`RayPack::plane`] | exact |
 //!
 //! # Levels
 //!
@@ -58,12 +72,15 @@
 //! ```
 
 mod aabb;
+mod filter;
 mod lanes;
+mod packet;
 mod triangle;
 
 pub use aabb::{AabbHits, AabbPack};
 pub use fearless_simd;
 pub use lanes::Lanes;
+pub use packet::{ClosestSpheres, ClosestTriangles, PlaneHits, RayPack};
 pub use triangle::{TriangleHits, TrianglePack};
 
 #[cfg(test)]
