@@ -74,10 +74,10 @@
 //! # Features
 //!
 //! * `std` (default): square roots from the standard library, and `alloc`.
-//! * `alloc`: [`Intersect`] for `Box` and `Arc`.
+//! * `alloc`: [`Intersect`] for `Box` and `Arc`, and the collections of `isect::simd`.
 //! * `libm`: square roots without the standard library.
-//! * `simd` (default): `isect::simd`, packs of triangles and boxes for the width of the processor, which is found
-//!   out at run time.
+//! * `simd` (default): `isect::simd`, packs of triangles and boxes, packets of rays, and collections, for the width of
+//!   the processor, which is found out at run time.
 //! * `testkit`: `isect::testkit`, the exact oracle, hard cases and a runner, to test kernels with.
 #![cfg_attr(not(feature = "std"), no_std)]
 

@@ -1,5 +1,5 @@
-//! Several shapes or rays at once: packs of triangles and boxes for the leaves and nodes of a hierarchy, and packets
-//! of rays.
+//! Several shapes or rays at once: packs of triangles and boxes for the leaves and nodes of a hierarchy, packets
+//! of rays, and collections for callers without a hierarchy.
 //!
 //! A pack holds up to `N` shapes as a structure of arrays, one per lane of the processor's vectors. A ray is
 //! held against all of them at once, by the bodies of the scalar kernels where one body serves both. Each lane
@@ -23,6 +23,12 @@
 //! | | [`RayPack::moller_trumbore`] | fast |
 //! | sphere | [`RayPack::robust`] | exact |
 //! | plane | [`RayPack::plane`] | exact |
+//!
+//! # Collections
+//!
+//! `Triangles`, `Spheres` and `Aabbs` (with the feature `alloc`) hold any number of shapes in packs, for some
+//! hundreds that need no hierarchy: `closest`, `any` and `hits` dispatch once, by themselves, and have the verdicts of the
+//! exact kernels.
 //!
 //! # Levels
 //!
@@ -72,12 +78,16 @@
 //! ```
 
 mod aabb;
+#[cfg(feature = "alloc")]
+mod collection;
 mod filter;
 mod lanes;
 mod packet;
 mod triangle;
 
 pub use aabb::{AabbHits, AabbPack};
+#[cfg(feature = "alloc")]
+pub use collection::{Aabbs, Spheres, Triangles};
 pub use fearless_simd;
 pub use lanes::Lanes;
 pub use packet::{ClosestSpheres, ClosestTriangles, PlaneHits, RayPack};

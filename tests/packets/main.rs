@@ -1,9 +1,10 @@
-//! The claims of packets, held against the scalar kernels: a binary of their own, as each level of the
-//! processor is compiled for them.
+//! The claims of packets and collections, held against the scalar kernels: a binary of their own, as each level of the
+//! processor is compiled for each of them.
 
 #[path = "../support/levels.rs"]
 mod levels;
 
+mod collections;
 mod packets;
 
 use fearless_simd::{Level, dispatch};
