@@ -83,9 +83,9 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
     /// use isect::{Ray, Triangle, glam::Vec3, ray::triangle::moller_trumbore};
     ///
     /// let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
-    /// let rays = [0.1, 0.3, 0.7].map(|x| Ray::new(Vec3::new(x, x, 0.7), Vec3::new(0.1, 0.1, -0.3)));
+    /// let rays = [0.1, 0.2, 0.7].map(|x| Ray::new(Vec3::new(x, x, 0.7), Vec3::new(0.1, 0.1, -0.3)));
     /// let (mut packet, mut closest) = (RayPack::<f32, 4>::from_rays(&rays), ClosestTriangles::default());
-    /// let active = 0b101;
+    /// let active = 0b101; // The second would hit as well.
     /// let hit = dispatch!(Level::new(), simd => {
     ///     packet.moller_trumbore(simd, &triangle, 17, active, &mut closest)
     /// });
