@@ -11,25 +11,10 @@ use isect::{Aabb, Ray, Scalar, Triangle, Vector};
 use crate::bounds::check_triangle;
 use crate::support::bounds::{self, unit_roundoff};
 use crate::support::kernels::{Intersect, TriangleKernel};
+use crate::support::levels::levels;
 use crate::support::{aabb, generators, name, oracle, ray, triangle};
 
 const SEED: u64 = 31;
-
-/// Every level that this processor has, the one without SIMD included.
-pub fn levels() -> Vec<Level> {
-    let best = Level::new();
-    let mut levels = vec![Level::fallback()];
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    {
-        levels.extend(best.as_sse2().map(Level::Sse2));
-        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-        levels.extend(best.as_avx2().map(Level::Avx2));
-        levels.extend(best.as_avx512().map(Level::Avx512));
-    }
-    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-    levels.push(best);
-    levels
-}
 
 #[test]
 fn the_levels_are_those_of_the_processor() {

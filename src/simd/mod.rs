@@ -9,7 +9,11 @@
 //! |---|---|---|
 //! | [`AabbPack`] | [`AabbPack::conservative`]: mask and entries | conservative |
 //! | [`TrianglePack`] | [`TrianglePack::exact`], [`TrianglePack::closest`], [`TrianglePack::any`] | exact |
+//! | | [`TrianglePack::watertight`] | watertight |
 //! | | [`TrianglePack::moller_trumbore`] | fast |
+//!
+//! `N` is 4, 8 or 16 in `f32`, 2, 4 or 8 in `f64`; a pack that is wider than the processor is held against the ray
+//! in parts. Where there are no lanes at all, the scalar kernels are asked one by one.
 //!
 //! # Packets
 //!

@@ -2,6 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
+use super::filter::{self, Filtered};
 use super::lanes::{Columns, Fused, Lanes, is_scalar, splat};
 use crate::ray::triangle::watertight::{self, ShearedRay};
 use crate::ray::triangle::{Found, Frame, TriangleHit, exact, moller_trumbore};
@@ -309,17 +310,7 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         }
     }
 
-    /// The filter of [`exact::intersect`] in the form that suits many triangles: around the normal and s × d, as
-    /// in Möller–Trumbore.
-    ///
-    /// Its four volumes have the same monomials as there, with as many roundings each (or fewer, where products
-    /// and sums are fused), so its bound E = 56u·kd·s·(ka + s) holds. Different is:
-    ///
-    /// * t = T·(1/den) has a rounding more: in all within 26u·s²·(ka + s)/|den|, where 56u is kept clear.
-    /// * 1/den must not overflow. The lengths count as at least 2⁻³² (`f64`: 2⁻²⁹⁶) instead of φ, which is 16 times
-    ///   as much: where the signs are certain, |den| > 3E ≥ 3·2⁻¹⁹·2⁻⁹⁶, a normal number, and so is 1/den.
-    /// * s counts as at least that, instead of both of its parts, and lengths from 2³⁷ (2³⁰¹) on are compared with it
-    ///   instead of becoming infinite.
+    /// What [`filter`] finds in the lanes that hold a triangle.
     #[inline(always)]
     fn filter<S: Simd, V: Vector<Scalar = T>>(
         &self,
@@ -327,40 +318,12 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         ray: &Ray<V>,
     ) -> Filtered<T::Wide<S>> {
         let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd, [0, 1, 2]));
-        let Frame { direction, edge1, edge2, offset } = Frame::new(&lanes, &triangles);
-        let zero = splat(simd, T::ZERO);
-
-        let scale = T::FILTER_RAISE * T::FILTER_LOWER;
-        let scale = scale * scale * scale;
-        let (floor, cap) = (T::FILTER_FLOOR * T::ONE.lit(16.0), T::MAX / T::FILTER_RAISE);
-        let kd = Coordinates::abs(ray.direction).max_element();
-        // No sign is above infinity: so a ray that the bound is not for is left to the later stages.
-        let usable = kd < cap && ray.t_min <= ray.t_max;
-        let kd = if usable { kd.max(floor) * scale } else { T::INFINITY };
-        let (k1, k2) = (edge1.abs().max_element(), edge2.abs().max_element());
-        let s = (k1 + k2).max(splat(simd, floor));
-        let size = offset.abs().max_element() + s;
-        let area = s * size;
-        let (bound, t_bound) = (area * splat(simd, kd), area * (s * splat(simd, scale)));
-
-        let normal = edge1.fused_cross(edge2);
-        let moment = offset.fused_cross(direction);
-        let den = -direction.fused_dot(normal);
-        let inverse = splat(simd, T::ONE) / den;
-        let s1 = edge2.fused_dot(moment);
-        let s2 = -edge1.fused_dot(moment);
-        let s0 = den - s1 - s2;
-        let t = offset.fused_dot(normal) * inverse;
-
-        // As in the scalar filter, down to the order of the operands: with any NaN, s0 is one, and both stay.
-        let inside = s1.min(s2).min(s0).max(-s1.max(s2).max(s0));
-        let within = (t - lanes.t_min).min(lanes.t_max - t);
-        let certain = bound.lt(inside.abs())
-            & (t_bound.lt((within * den).abs()) | inside.lt(zero))
-            & size.lt(splat(simd, cap));
-        let hit = zero.lt(inside.min(within));
-        let found = Found { hit, t, u: s1 * inverse, v: s2 * inverse, front: zero.lt(den) };
-        Filtered { found, open: !certain & is_present(&triangles) }
+        let frame = Frame::new(&lanes, &triangles);
+        let edges = filter::edge_lengths(frame.edge1, frame.edge2);
+        let lengths = [splat(simd, filter::scaled_length(ray)), edges];
+        let range = [lanes.t_min, lanes.t_max];
+        let Filtered { found, open } = filter::decide::<T, S, N>(simd, &frame, lengths, range);
+        Filtered { found, open: open & is_present(&triangles) }
     }
 
     /// What is found, once a scalar kernel has been asked about the lanes in `open`.
@@ -431,12 +394,6 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
             .filter(|lane| (open >> lane) & 1 == 1)
             .any(|lane| exact::undecided(&ray, &self.get::<V>(lane)).is_some())
     }
-}
-
-/// What the filter finds: where `open` holds, nothing.
-struct Filtered<N: Number> {
-    found: Found<N>,
-    open: N::Mask,
 }
 
 /// The lanes that hold a triangle. (A NaN elsewhere leaves everything open.)

@@ -1,6 +1,8 @@
 //! The claims of packets and collections, held against the scalar kernels: a binary of their own, as each level of the
 //! processor is compiled for each of them.
 
+#![allow(unreachable_pub)] // the modules of one binary are public to each other
+
 #[path = "../support/levels.rs"]
 mod levels;
 

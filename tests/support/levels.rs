@@ -3,7 +3,7 @@
 use fearless_simd::Level;
 
 /// Every level that this processor has, the one without SIMD included.
-pub(crate) fn levels() -> Vec<Level> {
+pub fn levels() -> Vec<Level> {
     let best = Level::new();
     let mut levels = vec![Level::fallback()];
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

@@ -2,6 +2,7 @@
 
 pub mod bounds;
 pub mod kernels;
+pub mod levels;
 
 pub use isect::testkit::shapes::{aabb, array, name, ray, scalar, sphere, triangle, vector};
 pub use isect::testkit::{generators, meshes, oracle};

@@ -4,7 +4,7 @@ use core::slice;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::super::lanes::{Columns, Lanes, splat};
+use super::super::lanes::{Columns, Lanes, is_scalar, splat};
 use super::{Packs, closer};
 use crate::ray::sphere::robust::{self, Approach, Certain};
 use crate::ray::sphere::{Quadratic, SphereHit};
@@ -212,9 +212,18 @@ impl<T: Lanes<N>, const N: usize> SpherePack<T, N> {
     /// The body of [`robust::intersect`], all lanes at once.
     #[inline(always)]
     fn robust<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &Ray<V>) -> SphereHits<T, N> {
+        if is_scalar(simd) {
+            let mut hits = SphereHits { t: [T::ZERO; N], leaving: 0, mask: 0 };
+            self.ask(ray, u32::MAX, &mut hits, robust::intersect);
+            return hits;
+        }
         let (origin, direction) = (Columns::of(simd, ray.origin), Columns::of(simd, ray.direction));
         let radius = T::load(simd, &self.radius);
-        let q = Quadratic::new(direction, Columns::load(simd, &self.center) - origin, radius);
+        let q = Quadratic::new(
+            direction,
+            Columns::load(simd, &self.center, [0, 1, 2]) - origin,
+            radius,
+        );
         let range = [splat(simd, ray.t_min), splat(simd, ray.t_max)];
         let approach = Approach::new(&q, splat(simd, T::EPSILON));
         let Certain { open, hit, t, leaving } = approach.certain(&q, range);
@@ -228,7 +237,7 @@ impl<T: Lanes<N>, const N: usize> SpherePack<T, N> {
         };
         let open = T::bits::<S>(open);
         if open != 0 {
-            self.ask(ray, open, &mut hits);
+            self.ask(ray, open, &mut hits, robust::undecided);
         }
         hits
     }
@@ -236,11 +245,17 @@ impl<T: Lanes<N>, const N: usize> SpherePack<T, N> {
     /// Asks the scalar kernel about the lanes in `open`.
     #[cold]
     #[inline(never)]
-    fn ask<V: Vector<Scalar = T>>(&self, ray: &Ray<V>, open: u32, hits: &mut SphereHits<T, N>) {
+    fn ask<V: Vector<Scalar = T>>(
+        &self,
+        ray: &Ray<V>,
+        open: u32,
+        hits: &mut SphereHits<T, N>,
+        intersect: impl Fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<T>>,
+    ) {
         for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
             let bit = 1 << lane;
             hits.mask &= !bit;
-            if let Some(hit) = robust::undecided(ray, &self.get(lane)) {
+            if let Some(hit) = intersect(ray, &self.get(lane)) {
                 hits.t[lane] = hit.t;
                 hits.leaving = hits.leaving & !bit | u32::from(hit.leaving) << lane;
                 hits.mask |= bit;

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::super::aabb::AabbHits;
-use super::super::lanes::{Lanes, splat};
+use super::super::lanes::{Lanes, is_scalar, splat};
 use super::RayPack;
 use crate::ray::aabb::{BoxRay, conservative};
 use crate::shape::Aabb;
@@ -43,6 +43,11 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         active: u32,
     ) -> AabbHits<T, N> {
         let active = if aabb.is_empty() { 0 } else { active & self.active };
+        if is_scalar(simd) {
+            let mut hits = AabbHits { mask: 0, t_enter: [T::ZERO; N] };
+            self.lane_by_lane(aabb, active, &mut hits);
+            return hits;
+        }
         let zero = splat(simd, T::ZERO);
         // The order of the scalar kernel's folds. For a parallel ray in a plane of the box a bound is 0 · ∞, a
         // NaN, which `min` and `max` drop in their first operand.

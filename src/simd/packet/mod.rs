@@ -162,8 +162,8 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
     #[inline(always)]
     fn wide<S: Simd>(&self, simd: S) -> Ray<Columns<T::Wide<S>>> {
         Ray {
-            origin: Columns::load(simd, &self.origin),
-            direction: Columns::load(simd, &self.direction),
+            origin: Columns::load(simd, &self.origin, [0, 1, 2]),
+            direction: Columns::load(simd, &self.direction, [0, 1, 2]),
             t_min: T::load(simd, &self.t_min),
             t_max: T::load(simd, &self.t_max),
         }

@@ -2,10 +2,10 @@
 
 use fearless_simd::Simd;
 
-use super::super::lanes::{Columns, Lanes, splat};
+use super::super::lanes::{Columns, Lanes, is_scalar, splat};
 use super::RayPack;
 use crate::ray::plane::{self, Certain, PlaneHit};
-use crate::shape::Plane;
+use crate::shape::{Plane, Ray};
 use crate::vector::{Scalar, Vector};
 
 /// Which rays of a packet meet a plane, and how.
@@ -72,6 +72,11 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         active: u32,
     ) -> PlaneHits<T, N> {
         let active = active & self.active;
+        if is_scalar(simd) {
+            let mut hits = PlaneHits { t: [T::ZERO; N], mask: 0, contained: 0 };
+            self.ask_plane(plane, active, &mut hits, plane::intersect);
+            return hits;
+        }
         let lanes =
             Plane { normal: Columns::of(simd, plane.normal), offset: splat(simd, plane.offset) };
         let (epsilon, tiny) = (splat(simd, T::EPSILON), splat(simd, T::MIN_POSITIVE));
@@ -80,7 +85,7 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
             PlaneHits { t: T::store::<S>(t), mask: T::bits::<S>(hit) & active, contained: 0 };
         let open = T::bits::<S>(open) & active;
         if open != 0 {
-            self.ask_plane(plane, open, &mut hits);
+            self.ask_plane(plane, open, &mut hits, plane::undecided);
         }
         hits
     }
@@ -93,9 +98,10 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         plane: &Plane<V>,
         open: u32,
         hits: &mut PlaneHits<T, N>,
+        intersect: impl Fn(&Ray<V>, &Plane<V>) -> Option<PlaneHit<T>>,
     ) {
         for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
-            match plane::undecided(&self.get(lane), plane) {
+            match intersect(&self.get(lane), plane) {
                 Some(PlaneHit::At(t)) => {
                     hits.t[lane] = t;
                     hits.mask |= 1 << lane;

@@ -2,11 +2,11 @@
 
 use fearless_simd::Simd;
 
-use super::super::lanes::{Columns, Lanes, splat};
+use super::super::lanes::{Columns, Lanes, is_scalar, splat};
 use super::{RayPack, replace};
 use crate::ray::sphere::robust::{self, Approach, Certain};
 use crate::ray::sphere::{Quadratic, SphereHit};
-use crate::shape::Sphere;
+use crate::shape::{Ray, Sphere};
 use crate::vector::{Scalar, Vector};
 
 /// The closest sphere so far of each ray in a packet, and the hit there.
@@ -83,25 +83,29 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         closest: &mut ClosestSpheres<T, N>,
     ) -> u32 {
         let active = active & self.active;
-        let rays = self.wide(simd);
-        let center: Columns<T::Wide<S>> = Columns::of(simd, sphere.center);
-        let q = Quadratic::new(rays.direction, center - rays.origin, splat(simd, sphere.radius));
-        let Certain { open, hit, t, leaving } =
-            Approach::new(&q, splat(simd, T::EPSILON)).certain(&q, [rays.t_min, rays.t_max]);
-        let open = T::bits::<S>(open | !q.is_mid_range()) & active;
-        let mask = T::bits::<S>(hit) & active;
-        if mask | open == 0 {
-            return 0;
-        }
-        let mut hits = ClosestSpheres {
-            t: T::store::<S>(t),
-            index: [index; N],
-            leaving: T::bits::<S>(leaving),
-            mask,
+        let hits = if is_scalar(simd) {
+            let mut hits = ClosestSpheres { index: [index; N], ..Default::default() };
+            self.ask_sphere(sphere, active, &mut hits, robust::intersect);
+            hits
+        } else {
+            let rays = self.wide(simd);
+            let center: Columns<T::Wide<S>> = Columns::of(simd, sphere.center);
+            let q =
+                Quadratic::new(rays.direction, center - rays.origin, splat(simd, sphere.radius));
+            let Certain { open, hit, t, leaving } =
+                Approach::new(&q, splat(simd, T::EPSILON)).certain(&q, [rays.t_min, rays.t_max]);
+            let open = T::bits::<S>(open | !q.is_mid_range()) & active;
+            let mask = T::bits::<S>(hit) & active;
+            if mask | open == 0 {
+                return 0;
+            }
+            let (t, leaving) = (T::store::<S>(t), T::bits::<S>(leaving));
+            let mut hits = ClosestSpheres { t, index: [index; N], leaving, mask };
+            if open != 0 {
+                self.ask_sphere(sphere, open, &mut hits, robust::undecided);
+            }
+            hits
         };
-        if open != 0 {
-            self.ask_sphere(sphere, open, &mut hits);
-        }
         let mask = hits.mask;
         self.shorten(mask, &hits.t);
         replace(mask, &mut closest.t, &hits.t);
@@ -119,11 +123,12 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         sphere: &Sphere<V>,
         open: u32,
         hits: &mut ClosestSpheres<T, N>,
+        intersect: impl Fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<T>>,
     ) {
         for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
             let bit = 1 << lane;
             hits.mask &= !bit;
-            if let Some(hit) = robust::undecided(&self.get(lane), sphere) {
+            if let Some(hit) = intersect(&self.get(lane), sphere) {
                 hits.t[lane] = hit.t;
                 hits.leaving = hits.leaving & !bit | u32::from(hit.leaving) << lane;
                 hits.mask |= bit;

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::super::filter::{self, Filtered};
-use super::super::lanes::{Columns, Lanes, splat};
+use super::super::lanes::{Columns, Lanes, is_scalar, splat};
 use super::super::triangle::TriangleHits;
 use super::{RayPack, replace};
 use crate::ray::triangle::{Frame, TriangleHit, exact, moller_trumbore};
@@ -102,6 +102,9 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         active: u32,
         closest: &mut ClosestTriangles<T, N>,
     ) -> u32 {
+        if is_scalar(simd) {
+            return self.ask_all(triangle, index, active, closest, moller_trumbore::intersect);
+        }
         let rays = self.wide(simd);
         let solution = moller_trumbore::solve(&frame(simd, &rays, triangle));
         let open = !solution.is_trustworthy();
@@ -146,6 +149,9 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         active: u32,
         closest: &mut ClosestTriangles<T, N>,
     ) -> u32 {
+        if is_scalar(simd) {
+            return self.ask_all(triangle, index, active, closest, exact::intersect);
+        }
         let filtered = self.filter(simd, triangle);
         self.keep(filtered, triangle, index, active, closest, exact::undecided)
     }
@@ -175,6 +181,9 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         active: u32,
     ) -> u32 {
         let active = active & self.active;
+        if is_scalar(simd) {
+            return self.hits_of(triangle, active);
+        }
         let Filtered { found, open } = self.filter(simd, triangle);
         let (hit, open) = (T::bits::<S>(found.hit) & active, T::bits::<S>(open) & active);
         if open == 0 { hit } else { hit & !open | self.hits_of(triangle, open) }
@@ -225,6 +234,23 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         hits.mask
     }
 
+    /// Asks a scalar kernel about all active lanes.
+    fn ask_all<V: Vector<Scalar = T>>(
+        &mut self,
+        triangle: &Triangle<V>,
+        index: u32,
+        active: u32,
+        closest: &mut ClosestTriangles<T, N>,
+        intersect: impl Fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<T>>,
+    ) -> u32 {
+        let nothing = [T::ZERO; N];
+        let mut hits = TriangleHits { t: nothing, u: nothing, v: nothing, front: 0, mask: 0 };
+        self.ask(triangle, active & self.active, &mut hits, intersect);
+        self.shorten(hits.mask, &hits.t);
+        closest.keep(&hits, index);
+        hits.mask
+    }
+
     /// Asks a scalar kernel about the lanes in `open`.
     #[cold]
     #[inline(never)]
@@ -252,7 +278,7 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
     fn hits_of<V: Vector<Scalar = T>>(&self, triangle: &Triangle<V>, open: u32) -> u32 {
         (0..N)
             .filter(|lane| (open >> lane) & 1 == 1)
-            .filter(|&lane| exact::undecided(&self.get(lane), triangle).is_some())
+            .filter(|&lane| exact::hits(&self.get(lane), triangle))
             .fold(0, |lanes, lane| lanes | 1 << lane)
     }
 }
