@@ -13,7 +13,7 @@ use isect::{Number, Plane, Ray, Scalar, Vector};
 use crate::support::oracle::TriangleVerdict;
 use crate::support::{
     aabb, for_every_vector, generators, meshes, name, oracle, ray, scalar, sphere as sphere_of,
-    triangle, vector,
+    triangle, vector, verdicts,
 };
 
 const SEED: u64 = 11;
@@ -52,11 +52,6 @@ fn exactly<V: Vector>(x: f64) -> f64 {
     if size_of::<V::Scalar>() == 4 { generators::single(x) } else { x.clamp(f64::MIN, f64::MAX) }
 }
 
-/// Whether a ray meets the segment or the point between some vertices.
-fn meets(ray: &oracle::Ray, [a, b]: [[f64; 3]; 2]) -> bool {
-    oracle::triangle(ray, [a, b, b]).hits()
-}
-
 #[test]
 fn classify_agrees_with_the_oracle() {
     fn check<V: Vector>() {
@@ -66,17 +61,10 @@ fn classify_agrees_with_the_oracle() {
             let (case, v) = triangle_case::<V>(&mut rng);
             let verdict = exact::classify::<V>(&ray(&case), &triangle(&v));
             let expected = oracle::triangle(&case, v);
-            let (kind, agrees) = match expected {
-                TriangleVerdict::Miss => (0, verdict == Verdict::Miss),
-                TriangleVerdict::Interior => (1, verdict == Verdict::Interior),
-                TriangleVerdict::Edge(i) => (2, verdict == Verdict::Edge(i)),
-                TriangleVerdict::Vertex(i) => (3, verdict == Verdict::Vertex(i)),
-                TriangleVerdict::Coplanar => (4, verdict == Verdict::Coplanar),
-                TriangleVerdict::Degenerate => (5, is_of_degenerate(&case, &v, verdict)),
-            };
+            let agrees = verdicts::agrees(verdict, expected, &case, &v);
             assert!(agrees, "{} {case:?} {v:?}: {verdict:?}, not {expected:?}", name::<V>());
             assert_eq!(exact::hits::<V>(&ray(&case), &triangle(&v)), expected.hits());
-            counts[kind] += 1;
+            counts[verdicts::kind(expected)] += 1;
         }
         println!(
             "{:<6} miss, interior, edge, vertex, coplanar, degenerate: {counts:?}",
@@ -146,21 +134,6 @@ fn underflow_is_within_the_bounds() {
         bits([0xa2ef_077c, 0x244e_ae91, 0x2434_0cd8]),
     );
     assert!(!ray.with_range(0.0, f32::from_bits(0x46f8_840d)).hits(&triangle));
-}
-
-/// What is to be reported of a segment or a point that is hit.
-fn is_of_degenerate(case: &oracle::Ray, v: &[[f64; 3]; 3], verdict: Verdict) -> bool {
-    let line = oracle::Ray { t_min: f64::NEG_INFINITY, t_max: f64::INFINITY, ..*case };
-    let vertex = |i: usize| meets(&line, [v[i]; 2]);
-    let edge = |i: usize| meets(case, [v[i], v[(i + 1) % 3]]);
-    let is_point = v[1] == v[0] && v[2] == v[0];
-    let along = (0..3).all(vertex) && !is_point;
-    match verdict {
-        Verdict::Coplanar => along,
-        Verdict::Vertex(i) => !along && (0..3).find(|&i| vertex(i)) == Some(i.into()),
-        Verdict::Edge(i) => !(0..3).any(vertex) && (0..3).find(|&i| edge(i)) == Some(i.into()),
-        Verdict::Miss | Verdict::Interior => false,
-    }
 }
 
 /// Rays aimed at vertices, at edges and along faces, from inside and outside, of closed meshes.

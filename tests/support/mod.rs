@@ -1,8 +1,9 @@
-//! What the tests share: the list of kernels, their error bounds, and the testkit.
+//! What the tests share: the list of kernels, their error bounds, what `classify` owes, and the testkit.
 
 pub mod bounds;
 pub mod kernels;
 pub mod levels;
+pub mod verdicts;
 
 pub use isect::testkit::shapes::{aabb, array, name, ray, scalar, sphere, triangle, vector};
 pub use isect::testkit::{generators, meshes, oracle};
