@@ -11,6 +11,7 @@ mod bounds;
 mod conservative;
 mod exact;
 mod hard_suites;
+mod mass;
 mod metamorphic;
 mod obvhs;
 mod overlap;

@@ -97,6 +97,13 @@ pub(crate) fn certain<V: Coordinates>(
     Certain { open: !is_certain, hit: is_certain & t.lit(0.0).lt(within), t }
 }
 
+/// Which stage decides a case, for measurements: 0 are floats, 2 are integers.
+#[doc(hidden)]
+#[must_use]
+pub fn stage<V: Vector>(ray: &Ray<V>, plane: &Plane<V>) -> usize {
+    if certain(ray, plane, V::Scalar::EPSILON, V::Scalar::MIN_POSITIVE).open { 2 } else { 0 }
+}
+
 /// The outcome where floats leave it open, and for bad input.
 #[cold]
 #[inline(never)]

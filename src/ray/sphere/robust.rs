@@ -148,6 +148,13 @@ fn certain<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<Option<SphereH
     (!open).then(|| hit.then_some(SphereHit { t, leaving }))
 }
 
+/// Which stage decides a case, for measurements: 0 are floats, 2 are integers.
+#[doc(hidden)]
+#[must_use]
+pub fn stage<V: Vector>(ray: &Ray<V>, sphere: &Sphere<V>) -> usize {
+    if certain(ray, sphere).is_some() { 0 } else { 2 }
+}
+
 /// The verdict where floats leave it open, and for bad input.
 #[cold]
 #[inline(never)]
