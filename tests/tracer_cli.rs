@@ -115,7 +115,7 @@ fn a_bad_mesh_is_named_with_the_reason() {
 #[test]
 fn bad_options_are_named_with_the_reason() {
     let folder = Folder::new("options");
-    let cases: [(&[&str], &str); 13] = [
+    let cases: [(&[&str], &str); 15] = [
         (&["--size", "0x9"], "at least one pixel"),
         (&["--size", "100000x100000"], "more than 67108864 pixels"),
         (&["--size", "wide"], "not of the form 960x540"),
@@ -129,6 +129,8 @@ fn bad_options_are_named_with_the_reason() {
         (&["--scene", "spheres", "--bench"], "no mesh in this scene"),
         (&["--mesh", "icosphere:10"], "not icosphere:0 to icosphere:9"),
         (&["--accel", "bvh8", "--triangle", "watertight"], "for '--triangle exact' only"),
+        (&["--packets", "--accel", "bvh2"], "for '--accel bvh8' only"),
+        (&["--packets", "--triangle", "watertight"], "for '--accel bvh8' only"),
     ];
     for (arguments, reason) in cases {
         // An option may be given once: leave out the test's own.
@@ -173,7 +175,7 @@ fn a_failure_leaves_the_old_picture_and_a_success_replaces_it() {
 }
 
 #[test]
-fn threads_and_the_hierarchy_do_not_change_the_bytes() {
+fn threads_packets_and_the_hierarchy_do_not_change_the_bytes() {
     let folder = Folder::new("same");
     let picture = |arguments: &[&str]| {
         assert!(folder.run(arguments).status.success());
@@ -181,10 +183,14 @@ fn threads_and_the_hierarchy_do_not_change_the_bytes() {
     };
     let one = picture(&["--size", "48x40", "--threads", "1"]);
     assert_eq!(one, picture(&["--size", "48x40", "--threads", "2"]));
+    assert_eq!(one, picture(&["--size", "48x40", "--packets"]));
     let naive = picture(&["--accel", "none"]);
     assert_eq!(naive, picture(&["--accel", "bvh2"]));
     assert_eq!(naive, picture(&["--accel", "bvh8"]));
     assert_eq!(naive, picture(&[]));
+    assert_eq!(naive, picture(&["--packets"]));
+    // The last packet of a row is not full.
+    assert_eq!(picture(&["--size", "13x11"]), picture(&["--size", "13x11", "--packets"]));
 }
 
 #[test]
@@ -199,7 +205,7 @@ fn the_bench_makes_a_table_and_no_picture() {
     };
     for kind in ["primary", "random", "shadow"] {
         let row = row(kind);
-        assert!(row.len() == 5 && row.iter().all(|x| *x > 0.0), "{table}");
+        assert!(row.len() == 6 && row.iter().all(|x| *x > 0.0), "{table}");
     }
     assert!(table.contains("triangles         80\n"), "{table}");
     assert!(folder.names().is_empty());

@@ -9,6 +9,9 @@ use isect::{Ray, Triangle};
 
 use crate::kernel::TriangleKernel;
 
+/// The most rays that go together.
+pub(crate) const PACKET: usize = 8;
+
 /// A hit and the triangle of the mesh that it is on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MeshHit {
@@ -35,6 +38,32 @@ pub(crate) trait Accelerator: Sync {
 
     /// Whether there is any hit in the ray's range.
     fn occluded(&self, ray: &Ray<Vec3A>) -> bool;
+
+    /// The closest hits of rays that go together.
+    fn closest_of_packet(&self, rays: &[Ray<Vec3A>]) -> [Option<MeshHit>; PACKET] {
+        let mut hits = [None; PACKET];
+        for (hit, ray) in hits.iter_mut().zip(rays) {
+            *hit = self.closest(ray);
+        }
+        hits
+    }
+
+    /// Which of some rays that go together have any hit; the rays that count and the answer are bits.
+    fn occluded_of_packet(&self, rays: &[Ray<Vec3A>], active: u32) -> u32 {
+        lanes(active)
+            .filter(|&lane| self.occluded(&rays[lane]))
+            .fold(0, |occluded, lane| occluded | 1 << lane)
+    }
+}
+
+/// The places of the bits that are set.
+#[inline(always)]
+pub(crate) fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = mask.trailing_zeros() as usize;
+        mask &= mask.checked_sub(1)?;
+        Some(lane)
+    })
 }
 
 /// Every ray against every triangle.

@@ -7,6 +7,8 @@
 //! are full or not. Boxes are unions of boxes of triangles, which takes no rounding: so with conservative boxes
 //! and exact leaves no ray is lost.
 
+mod packets;
+
 use std::cell::RefCell;
 use std::time::Duration;
 
@@ -21,6 +23,8 @@ use obvhs::bvh2::Bvh2 as Binary;
 use obvhs::bvh2::builder::build_bvh2;
 
 use crate::accelerator::{Accelerator, MeshHit};
+
+pub(crate) use packets::{InPackets, PacketStack};
 
 /// How obvhs builds.
 pub(crate) const BUILD: BvhBuildParams =
@@ -145,10 +149,25 @@ impl Bvh8 {
         full: &Ray<Vec3A>,
         stack: &mut Vec<Entry>,
     ) -> Option<Candidate> {
-        let mut child = self.root?;
+        self.closest_below(simd, self.root?, full, None, stack)
+    }
+
+    /// The closest one of a hit that is known and of those below a node or a leaf.
+    #[inline(always)]
+    fn closest_below<S: Simd>(
+        &self,
+        simd: S,
+        mut child: Child,
+        full: &Ray<Vec3A>,
+        mut closest: Option<Candidate>,
+        stack: &mut Vec<Entry>,
+    ) -> Option<Candidate> {
         let mut ray = *full;
         let mut boxes = BoxRay::new(full);
-        let mut closest = None;
+        if let Some(closest) = closest {
+            ray.t_max = closest.greatest;
+            boxes.t_max = closest.greatest;
+        }
         stack.clear();
         loop {
             if let Some(leaf) = child.as_leaf() {
@@ -158,11 +177,8 @@ impl Bvh8 {
                 while mask != 0 {
                     let lane = mask.trailing_zeros() as usize;
                     mask &= mask - 1;
-                    let found = Candidate::new(full, pack, &hits, leaf, lane);
-                    let best = match closest {
-                        None => found,
-                        Some(closest) => self.closer(full, closest, found),
-                    };
+                    let found = Candidate::of_lane(full, pack, &hits, leaf, lane);
+                    let best = self.closest_of(full, closest, found);
                     ray.t_max = best.greatest;
                     boxes.t_max = best.greatest;
                     closest = Some(best);
@@ -188,7 +204,18 @@ impl Bvh8 {
         ray: &Ray<Vec3A>,
         stack: &mut Vec<Entry>,
     ) -> bool {
-        let Some(mut child) = self.root else { return false };
+        self.root.is_some_and(|root| self.occluded_below(simd, root, ray, stack))
+    }
+
+    /// Whether there is any hit below a node or a leaf.
+    #[inline(always)]
+    fn occluded_below<S: Simd>(
+        &self,
+        simd: S,
+        mut child: Child,
+        ray: &Ray<Vec3A>,
+        stack: &mut Vec<Entry>,
+    ) -> bool {
         let boxes = BoxRay::new(ray);
         stack.clear();
         loop {
@@ -201,6 +228,20 @@ impl Bvh8 {
             }
             let Some(entry) = stack.pop() else { return false };
             child = entry.child;
+        }
+    }
+
+    /// The closer one of a hit and the closest so far, if any.
+    #[inline(always)]
+    fn closest_of(
+        &self,
+        ray: &Ray<Vec3A>,
+        closest: Option<Candidate>,
+        found: Candidate,
+    ) -> Candidate {
+        match closest {
+            None => found,
+            Some(closest) => self.closer(ray, closest, found),
         }
     }
 
@@ -296,14 +337,9 @@ impl Child {
 }
 
 impl Candidate {
-    /// The hit of a lane.
-    ///
-    /// With P(a, b, c) the sum of the magnitudes of the six terms of a·(b × c), t is off by at most
-    /// 10u·(P(s, e1, e2) + |t|·P(d, e1, e2))/|d·n|, to first order, as the pack's documentation says, u =
-    /// EPSILON/2. With k the largest magnitude of a component, P(a, b, c) ≤ 6·ka·kb·kc: twice that much,
-    /// 64·EPSILON·k1·k2·(ks + |t|·kd)/|d·n|, allows for all else.
+    /// The hit of a lane of a leaf.
     #[inline(always)]
-    fn new(
+    fn of_lane(
         ray: &Ray<Vec3A>,
         pack: &TrianglePack<f32, LEAF>,
         hits: &TriangleHits<f32, LEAF>,
@@ -313,7 +349,23 @@ impl Candidate {
         let lane = lane % LEAF;
         let front = (hits.front >> lane) & 1 == 1;
         let hit = TriangleHit { t: hits.t[lane], u: hits.u[lane], v: hits.v[lane], front };
-        let Triangle { v0, v1, v2 } = pack.get::<Vec3A>(lane);
+        Self::new(ray, &pack.get(lane), hit, leaf, lane)
+    }
+
+    /// The hit of the triangle in a lane of a leaf.
+    ///
+    /// With P(a, b, c) the sum of the magnitudes of the six terms of a·(b × c), t is off by at most
+    /// 10u·(P(s, e1, e2) + |t|·P(d, e1, e2))/|d·n|, to first order, as the pack's documentation says, u =
+    /// EPSILON/2. With k the largest magnitude of a component, P(a, b, c) ≤ 6·ka·kb·kc: twice that much,
+    /// 64·EPSILON·k1·k2·(ks + |t|·kd)/|d·n|, allows for all else.
+    #[inline(always)]
+    fn new(
+        ray: &Ray<Vec3A>,
+        &Triangle { v0, v1, v2 }: &Triangle<Vec3A>,
+        hit: TriangleHit<f32>,
+        leaf: usize,
+        lane: usize,
+    ) -> Self {
         let (edge1, edge2, offset) = (v1 - v0, v2 - v0, ray.origin - v0);
         let [k1, k2, ks, kd] =
             [edge1, edge2, offset, ray.direction].map(|vector| vector.abs().max_element());

@@ -36,7 +36,7 @@ use isect::glam::Vec3A;
 use accelerator::{Accelerator, NaiveLoop};
 use bench::bench;
 use bvh2::Bvh2;
-use bvh8::Bvh8;
+use bvh8::{Bvh8, InPackets};
 use camera::Camera;
 use kernel::{Badouel, Exact, MollerTrumbore, Segura, TriangleKernel, Watertight};
 use mesh::Obj;
@@ -81,6 +81,9 @@ struct Arguments {
     /// What finds the triangles that a ray may hit [default: bvh8 with the exact kernel, else bvh2]
     #[arg(long, value_enum)]
     accel: Option<AcceleratorName>,
+    /// Traces primary rays and their shadow rays in packets of eight; with bvh8 only
+    #[arg(long)]
+    packets: bool,
     /// Threads, up to 1024; 0 for one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
     threads: u16,
@@ -116,6 +119,16 @@ enum AcceleratorName {
     Bvh2,
     /// One of eight boxes to a node, in packs; with the exact kernel only
     Bvh8,
+}
+
+impl Arguments {
+    /// The accelerator that is chosen, or the best for the kernel.
+    fn accelerator(&self) -> AcceleratorName {
+        self.accel.unwrap_or(match self.triangle {
+            KernelName::Exact => AcceleratorName::Bvh8,
+            _ => AcceleratorName::Bvh2,
+        })
+    }
 }
 
 /// Where a mesh comes from.
@@ -183,6 +196,10 @@ fn main() -> ExitCode {
     let is_exact = matches!(arguments.triangle, KernelName::Exact);
     if matches!(arguments.accel, Some(AcceleratorName::Bvh8)) && !is_exact {
         eprintln!("error: '--accel bvh8' is for '--triangle exact' only");
+        return ExitCode::from(2);
+    }
+    if arguments.packets && !matches!(arguments.accelerator(), AcceleratorName::Bvh8) {
+        eprintln!("error: '--packets' is for '--accel bvh8' only");
         return ExitCode::from(2);
     }
     if arguments.bench && !arguments.scene.has_mesh() {
@@ -265,11 +282,12 @@ fn accelerator(
         KernelName::Badouel => build::<Badouel>,
         KernelName::Segura => build::<Segura>,
     };
-    let name = arguments.accel.unwrap_or(match arguments.triangle {
-        KernelName::Exact => AcceleratorName::Bvh8,
-        _ => AcceleratorName::Bvh2,
-    });
-    build(name, scene, triangles)
+    match arguments.accelerator() {
+        AcceleratorName::Bvh8 if arguments.packets => {
+            Box::new(InPackets::new(Bvh8::new(triangles)))
+        }
+        name => build(name, scene, triangles),
+    }
 }
 
 /// The table at the end.

@@ -1,8 +1,11 @@
 //! From a scene to a picture: tiles on all cores, samples per pixel, statistics.
 
+use std::ops::Range;
+
 use isect::glam::Vec3;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
+use crate::accelerator::PACKET;
 use crate::camera::Camera;
 use crate::scene::Color;
 use crate::shade::{RayCounts, Tracer};
@@ -38,8 +41,8 @@ impl Settings {
 
 /// A rectangle of pixels.
 struct Tile {
-    x: std::ops::Range<u32>,
-    y: std::ops::Range<u32>,
+    x: Range<u32>,
+    y: Range<u32>,
 }
 
 /// Renders on rayon's threads; `progress` is called after each tile.
@@ -65,10 +68,8 @@ pub(crate) fn render(
             let mut counts = RayCounts::default();
             let mut pixels = Vec::with_capacity(tile.x.len() * tile.y.len());
             for y in tile.y.clone() {
-                for x in tile.x.clone() {
-                    let color = pixel(tracer, camera, settings, [x, y], &mut counts);
-                    pixels.push(srgb(color));
-                }
+                let colors = row(tracer, camera, settings, tile.x.clone(), y, &mut counts);
+                pixels.extend(colors.into_iter().map(srgb));
             }
             progress();
             (pixels, counts)
@@ -93,26 +94,34 @@ fn starts(length: u32) -> impl Iterator<Item = u32> {
     (0..length).step_by(TILE as usize)
 }
 
-/// The mean of a pixel's samples: the centres of the squares into which a regular grid divides it,
-/// of which a single one is the pixel's own centre.
-fn pixel(
+/// Some pixels of a row, each the mean of its samples: the centres of the squares into which a regular grid
+/// divides it, of which a single one is the pixel's own centre. Samples that follow each other go together.
+fn row(
     tracer: &Tracer<'_>,
     camera: &Camera,
     settings: &Settings,
-    [x, y]: [u32; 2],
+    pixels: Range<u32>,
+    y: u32,
     counts: &mut RayCounts,
-) -> Color {
-    let per_edge = f32::from(settings.samples_per_edge);
-    let offset = |sample: u16| (f32::from(sample) + 0.5) / per_edge;
-    let mut sum = Color::ZERO;
-    for row in 0..settings.samples_per_edge {
-        for column in 0..settings.samples_per_edge {
-            let ray = camera.ray(x as f32 + offset(column), y as f32 + offset(row));
-            // A highlight brighter than white would leave steps at the edges.
-            sum += tracer.color(&ray, counts).min(Color::ONE);
-        }
+) -> Vec<Color> {
+    let per_edge = settings.samples_per_edge;
+    let offset = |sample: u16| (f32::from(sample) + 0.5) / f32::from(per_edge);
+    let grid = || (0..per_edge).flat_map(|row| (0..per_edge).map(move |column| (column, row)));
+    let rays: Vec<_> = pixels
+        .flat_map(|x| grid().map(move |sample| (x, sample)))
+        .map(|(x, (column, row))| camera.ray(x as f32 + offset(column), y as f32 + offset(row)))
+        .collect();
+    let mut samples = Vec::with_capacity(rays.len());
+    for packet in rays.chunks(PACKET) {
+        samples.extend_from_slice(&tracer.colors(packet, counts)[..packet.len()]);
     }
-    sum / (per_edge * per_edge)
+    let per_pixel = usize::from(per_edge * per_edge);
+    samples
+        .chunks_exact(per_pixel)
+        // A highlight brighter than white would leave steps at the edges.
+        .map(|samples| samples.iter().map(|color| color.min(Color::ONE)).sum::<Color>())
+        .map(|sum| sum / per_pixel as f32)
+        .collect()
 }
 
 /// The colour in sRGB (IEC 61966-2-1).

@@ -1,15 +1,21 @@
 //! The point that a ray sees, and whether a point sees a light.
 
+use std::array;
+
 use isect::glam::Vec3A;
 use isect::{Ray, spawn};
 
-use crate::accelerator::{Accelerator, MeshHit};
+use crate::accelerator::{Accelerator, MeshHit, PACKET};
 use crate::mesh::interpolated;
 use crate::scene::{Material, Scene, ShapeHit};
 
 /// The share of the light that gets through a transparent surface on its straight way to a shadow
 /// ray's start: a stand-in for the light that refraction would bring there.
 const THROUGH_TRANSPARENT: f32 = 0.75;
+
+/// It stands in the lanes without a ray, and hits nothing.
+const NO_RAY: Ray<Vec3A> =
+    Ray { origin: Vec3A::ZERO, direction: Vec3A::ZERO, t_min: 0.0, t_max: 0.0 };
 
 /// A point of a surface as the ray that found it sees it.
 #[derive(Clone, Copy, Debug)]
@@ -38,19 +44,23 @@ impl<'a> Surface<'a> {
         accelerator: &dyn Accelerator,
         ray: &Ray<Vec3A>,
     ) -> Option<Self> {
-        let mut ray = *ray;
-        let mut closest = None;
-        for (shape, material) in &scene.shapes {
-            if let Some(hit) = shape.intersect(&ray) {
-                closest = Some((hit, material));
-                ray = ray.before(hit.t);
-            }
+        let (ray, shape) = closest_shape(scene, ray);
+        let in_mesh = accelerator.closest(&ray);
+        Self::of_closer(scene, &ray, in_mesh, shape)
+    }
+
+    /// The same for rays that go together.
+    pub(crate) fn closest_of_packet(
+        scene: &'a Scene,
+        accelerator: &dyn Accelerator,
+        rays: &[Ray<Vec3A>],
+    ) -> [Option<Self>; PACKET] {
+        let (mut shortened, mut shapes) = ([NO_RAY; PACKET], [None; PACKET]);
+        for (lane, ray) in rays.iter().enumerate() {
+            (shortened[lane], shapes[lane]) = closest_shape(scene, ray);
         }
-        if let Some(hit) = accelerator.closest(&ray) {
-            return Some(Self::of_mesh(scene, &ray, &hit));
-        }
-        let (hit, material) = closest?;
-        Some(Self::of_shape(&hit, material))
+        let in_mesh = accelerator.closest_of_packet(&shortened[..rays.len()]);
+        array::from_fn(|lane| Self::of_closer(scene, &shortened[lane], in_mesh[lane], shapes[lane]))
     }
 
     /// The ray that leaves the surface in `direction`, to either side.
@@ -64,6 +74,20 @@ impl<'a> Surface<'a> {
     pub(crate) fn shadow_origin(&self) -> Vec3A {
         let Self { shadow_point, error, geometric_normal, .. } = *self;
         spawn::offset_origin(shadow_point, error, geometric_normal, geometric_normal)
+    }
+
+    /// What a ray sees that ends at the closest shape and hits the mesh before it, or not.
+    fn of_closer(
+        scene: &'a Scene,
+        ray: &Ray<Vec3A>,
+        in_mesh: Option<MeshHit>,
+        shape: Option<(ShapeHit, &'a Material)>,
+    ) -> Option<Self> {
+        if let Some(hit) = in_mesh {
+            return Some(Self::of_mesh(scene, ray, &hit));
+        }
+        let (hit, material) = shape?;
+        Some(Self::of_shape(&hit, material))
     }
 
     fn of_shape(hit: &ShapeHit, material: &'a Material) -> Self {
@@ -114,6 +138,22 @@ impl<'a> Surface<'a> {
     }
 }
 
+/// The closest shape that a ray meets in its range, and what of the ray is before it.
+fn closest_shape<'a>(
+    scene: &'a Scene,
+    ray: &Ray<Vec3A>,
+) -> (Ray<Vec3A>, Option<(ShapeHit, &'a Material)>) {
+    let mut ray = *ray;
+    let mut closest = None;
+    for (shape, material) in &scene.shapes {
+        if let Some(hit) = shape.intersect(&ray) {
+            closest = Some((hit, material));
+            ray = ray.before(hit.t);
+        }
+    }
+    (ray, closest)
+}
+
 /// The share of a light that reaches the other end of a shadow ray: none if anything opaque is hit,
 /// whatever is found first.
 pub(crate) fn transmittance(
@@ -121,6 +161,25 @@ pub(crate) fn transmittance(
     accelerator: &dyn Accelerator,
     shadow: &Ray<Vec3A>,
 ) -> f32 {
+    let share = through_shapes(scene, shadow);
+    if share > 0.0 && accelerator.occluded(shadow) { 0.0 } else { share }
+}
+
+/// The same for shadow rays that go together.
+pub(crate) fn transmittance_of_packet(
+    scene: &Scene,
+    accelerator: &dyn Accelerator,
+    shadows: &[Option<Ray<Vec3A>>; PACKET],
+) -> [f32; PACKET] {
+    let shares = shadows.map(|shadow| shadow.map_or(0.0, |shadow| through_shapes(scene, &shadow)));
+    let rays = shadows.map(|shadow| shadow.unwrap_or(NO_RAY));
+    let active = (0..PACKET).fold(0, |active, lane| active | u32::from(shares[lane] > 0.0) << lane);
+    let occluded = accelerator.occluded_of_packet(&rays, active);
+    array::from_fn(|lane| if (occluded >> lane) & 1 == 1 { 0.0 } else { shares[lane] })
+}
+
+/// The share of a light that gets through the shapes.
+fn through_shapes(scene: &Scene, shadow: &Ray<Vec3A>) -> f32 {
     let mut share = 1.0;
     for (shape, material) in &scene.shapes {
         if shape.hits(shadow) {
@@ -129,9 +188,6 @@ pub(crate) fn transmittance(
             }
             share *= THROUGH_TRANSPARENT;
         }
-    }
-    if accelerator.occluded(shadow) {
-        return 0.0;
     }
     share
 }
