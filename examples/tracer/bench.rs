@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use isect::glam::Vec3A;
 use isect::simd::fearless_simd::{Simd, dispatch};
-use isect::{Ray, Triangle};
+use isect::{Ray, Triangle, spawn};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
 use obvhs::ray::RayHit;
 
@@ -24,9 +24,10 @@ type Found = (u32, f32);
 
 /// Traces as many rays of each kind as the picture has pixels, and makes a table of how fast that was.
 ///
-/// Primary rays are those of the picture's pixels, row by row. Random rays start in the box around the mesh,
-/// made half as large again, and pass through another point there. Shadow rays end at that point, and ask
-/// for any hit.
+/// Primary rays are those of the picture's pixels, row by row. Rays to the lamp, the first, start where these hit
+/// and face it, so that there are fewer; they ask for any hit. Random rays start in the box around the mesh, made
+/// half as large again, and pass through another point there. Shadow rays end at that point, and ask for any hit.
+/// Packets are made of rays that follow each other, also of random ones.
 pub(crate) fn bench(
     scene: &Scene,
     triangles: &[Triangle<Vec3A>],
@@ -50,9 +51,13 @@ pub(crate) fn bench(
     ));
 
     let [primary, random, shadow] = rays(scene, [width, height]);
-    for (kind, rays, any) in
-        [("primary", primary, false), ("random", random, false), ("shadow", shadow, true)]
-    {
+    let lamp = rays_to_lamp(scene, triangles, &ours, &primary);
+    for (kind, rays, any) in [
+        ("primary", primary, false),
+        ("lamp", lamp, true),
+        ("random", random, false),
+        ("shadow", shadow, true),
+    ] {
         let rays_of_peer: Vec<_> = rays
             .iter()
             .map(|r| obvhs::ray::Ray::new(r.origin, r.direction, r.t_min, r.t_max))
@@ -118,6 +123,25 @@ fn rays(scene: &Scene, [width, height]: [u32; 2]) -> [Vec<Ray<Vec3A>>; 3] {
     let shadow: Vec<_> = primary.iter().map(|_| Ray::segment(point(), point())).collect();
     let whole = |ray: &Ray<Vec3A>| Ray::new(ray.origin, ray.direction.normalize());
     [primary, shadow.iter().map(whole).collect(), shadow]
+}
+
+/// The shadow rays from the primary hits to the first lamp.
+fn rays_to_lamp(
+    scene: &Scene,
+    triangles: &[Triangle<Vec3A>],
+    hierarchy: &Bvh8,
+    primary: &[Ray<Vec3A>],
+) -> Vec<Ray<Vec3A>> {
+    let lamp = scene.lights[0].position;
+    let shadow = |ray: &Ray<Vec3A>| {
+        let MeshHit { triangle, hit } = hierarchy.closest(ray)?;
+        let triangle = &triangles[triangle as usize];
+        let normal = if hit.front { triangle.normal() } else { -triangle.normal() };
+        let (point, error) = hit.point_and_error(triangle);
+        let from = spawn::offset_origin(point, error, normal, normal);
+        (normal.dot(lamp - from) > 0.0).then(|| Ray::segment(from, lamp))
+    };
+    primary.iter().filter_map(shadow).collect()
 }
 
 /// The closest hits, the level found out once for all rays.
