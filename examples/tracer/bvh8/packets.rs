@@ -16,8 +16,8 @@ use isect::{Aabb, Ray, Triangle};
 use super::{Bvh8, Candidate, Child, Entry, Node, WIDTH};
 use crate::accelerator::{Accelerator, MeshHit, PACKET, lanes};
 
-/// So many rays go on one by one: half a packet, by measurement. Two cost up to a fifth of the speed, and none at
-/// all three quarters.
+/// So many rays go on one by one: half a packet, by measurement. With two, packets are slower by up to a fifth;
+/// if all stay together, random ones by more than half.
 const FEW: u32 = 4;
 
 /// Rays that go together.
