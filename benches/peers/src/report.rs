@@ -36,7 +36,7 @@ pub fn machine() -> String {
     format!(
         "{cpu}; {rustc}; {}, {flags}.{build}\n\n{PAIRS} pairs per table, in random order of \
          hits and misses. Times in ns per query. The ratio is taken round by round; its \
-         spread is from the 10th to the 90th percentile.\n",
+         spread is from the 10th to the 90th percentile. Clock cycles are those of the best round.\n",
         std::env::consts::ARCH
     )
 }
@@ -45,7 +45,7 @@ pub fn machine() -> String {
 pub fn table(question: &Question, outcomes: &[Outcome]) -> String {
     let mut table = format!(
         "## {}\n\n{}\n\n\
-         | contender | min | median | ratio | spread | hits |\n|---|--:|--:|--:|--:|--:|\n",
+         | contender | min | cycles | median | ratio | spread | hits |\n|---|--:|--:|--:|--:|--:|--:|\n",
         question.title, question.note
     );
     for (contender, outcome) in question.contenders.iter().zip(outcomes) {
@@ -59,8 +59,9 @@ pub fn table(question: &Question, outcomes: &[Outcome]) -> String {
         // Writing to a string does not fail.
         let _ = writeln!(
             table,
-            "| {name} | {:.2} | {:.2} | {:.3} | {:.3}–{:.3} | {hits} ({percent:.1} %) |",
+            "| {name} | {:.2} | {:.2} | {:.2} | {:.3} | {:.3}–{:.3} | {hits} ({percent:.1} %) |",
             quantile(&times, 0.0),
+            outcome.cycles,
             quantile(&times, 0.5),
             quantile(&ratios, 0.5),
             quantile(&ratios, 0.1),
