@@ -22,6 +22,8 @@ pub(crate) struct Pairs<A, B> {
     first: Vec<A>,
     /// How many second parts each first one has.
     per_first: usize,
+    /// How often all pairs are asked: `PAIRS` times in all.
+    rounds: usize,
     /// Those of the first `first`, then those of the second, and so on.
     second: Vec<B>,
 }
@@ -34,10 +36,11 @@ impl<A, B> Pairs<A, B> {
         second: impl Fn(&A, &B) -> D,
     ) -> Pairs<C, D> {
         let mut seconds = Vec::with_capacity(self.second.len());
-        self.for_each(|a, b| seconds.push(second(a, b)));
+        self.for_each_once(|a, b| seconds.push(second(a, b)));
         Pairs {
             first: self.first.iter().map(first).collect(),
             per_first: self.per_first,
+            rounds: self.rounds,
             second: seconds,
         }
     }
@@ -56,9 +59,30 @@ impl<A, B> Pairs<A, B> {
         self.first.iter().map(first).zip(packs).collect()
     }
 
-    /// Calls `visit` with each pair in turn.
+    /// Only the first of the first parts with its second parts, over and over: they stay in the cache that is closest to the
+    /// processor.
+    pub(crate) fn of_first(mut self) -> Self {
+        self.first.truncate(1);
+        self.second.truncate(self.per_first);
+        self.rounds = PAIRS / self.per_first;
+        self
+    }
+
+    /// How often all pairs are asked.
+    pub(crate) fn rounds(&self) -> usize {
+        self.rounds
+    }
+
+    /// Calls `visit` with each pair in turn, as often as they are asked.
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(&A, &B)) {
+        for _ in 0..self.rounds {
+            self.for_each_once(&mut visit);
+        }
+    }
+
+    #[inline(always)]
+    fn for_each_once(&self, mut visit: impl FnMut(&A, &B)) {
         for (a, some) in self.first.iter().zip(self.second.chunks_exact(self.per_first)) {
             for b in some {
                 visit(a, b);
@@ -77,7 +101,7 @@ fn draw<A, B>(
     let mut random = Random(fastrand::Rng::with_seed(1));
     let mut verdicts: Vec<bool> = (0..PAIRS).map(|i| (i as f32) < rate * PAIRS as f32).collect();
     random.0.shuffle(&mut verdicts);
-    let mut pairs = Pairs { first: Vec::new(), per_first, second: Vec::new() };
+    let mut pairs = Pairs { first: Vec::new(), per_first, rounds: 1, second: Vec::new() };
     for verdicts in verdicts.chunks(per_first) {
         let a = first(&mut random);
         pairs.second.extend(verdicts.iter().map(|&hit| second(&mut random, &a, hit)));

@@ -12,15 +12,18 @@ use crate::data::{self, Pairs};
 use crate::peer;
 use crate::timing::{Contender, Question, ask_packs, stages};
 
-/// How many shapes each ray is held against: those of a leaf, or many in a row.
-const PER_RAY: [(usize, &str); 2] = [(8, "a pack"), (256, "a stream")];
+/// How many shapes each ray is held against: those of a leaf, or many in a row; and whether it is one ray alone with its
+/// shapes, which stay in the cache.
+const PER_RAY: [(usize, bool, &str); 3] =
+    [(8, false, "a pack"), (256, false, "a stream"), (256, true, "a cached stream")];
 
 /// Two hit rates, two sizes, single packs and streams of them.
 pub fn triangle_questions() -> impl Iterator<Item = Question> {
     let cases = [(0.1, 1.0), (0.5, 1.0), (0.1, 0.01), (0.5, 0.01)];
-    PER_RAY.into_iter().flat_map(move |(per_ray, what)| {
+    PER_RAY.into_iter().flat_map(move |(per_ray, is_cached, what)| {
         cases.into_iter().map(move |(hit_rate, size)| {
             let pairs = data::ray_triangle(per_ray, hit_rate, size);
+            let pairs = if is_cached { pairs.of_first() } else { pairs };
             Question {
                 title: format!(
                     "1 ray and {what} of triangles, {:.0} % hits, size {size}",
@@ -38,7 +41,7 @@ pub fn triangle_questions() -> impl Iterator<Item = Question> {
 }
 
 fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
-    let level = Level::new();
+    let (level, rounds) = (Level::new(), pairs.rounds());
     let ray = |ray: &Ray| Ray::<Vec3A>::from(*ray);
     let packs = || pairs.packed(8, ray, TrianglePack::<f32, 8>::from_triangles);
     let sheared =
@@ -56,6 +59,7 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
         Contender::with_pass("isect `TrianglePack::moller_trumbore` × 8", move || {
             dispatch!(level, simd => ask_packs(
                 &fast,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.moller_trumbore(simd, ray),
                 |hits| hits.mask.count_ones(),
@@ -64,6 +68,7 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
         Contender::with_pass("isect `TrianglePack::watertight` × 8", move || {
             dispatch!(level, simd => ask_packs(
                 &sheared,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.watertight(simd, ray),
                 |hits| hits.mask.count_ones(),
@@ -72,6 +77,7 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
         Contender::with_pass("isect `TrianglePack::exact` × 8", move || {
             dispatch!(level, simd => ask_packs(
                 &certain,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.exact(simd, ray),
                 |hits| hits.mask.count_ones(),
@@ -80,6 +86,7 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
         Contender::with_pass("isect `TrianglePack::exact` × 16", move || {
             dispatch!(level, simd => ask_packs(
                 &sixteen,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.exact(simd, ray),
                 |hits| hits.mask.count_ones(),
@@ -88,6 +95,7 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
         Contender::with_pass("isect `TrianglePack::closest` × 8 (hits: of packs)", move || {
             dispatch!(level, simd => ask_packs(
                 &closest,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.closest(simd, ray),
                 |hit| u32::from(hit.is_some()),
@@ -96,6 +104,7 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
         Contender::with_pass("isect `TrianglePack::any` × 8 (hits: of packs)", move || {
             dispatch!(level, simd => ask_packs(
                 &any,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.any(simd, ray),
                 |hit| u32::from(*hit),
@@ -106,9 +115,10 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
 
 /// Two hit rates, single packs and streams of them.
 pub fn box_questions() -> impl Iterator<Item = Question> {
-    PER_RAY.into_iter().flat_map(|(per_ray, what)| {
+    PER_RAY.into_iter().flat_map(|(per_ray, is_cached, what)| {
         [0.1, 0.5].into_iter().map(move |hit_rate| {
             let pairs = data::ray_box(per_ray, hit_rate);
+            let pairs = if is_cached { pairs.of_first() } else { pairs };
             Question {
                 title: format!("1 ray and {what} of boxes, {:.0} % hits", 100.0 * hit_rate),
                 note: "Per box: obvhs asks one by one and answers with the t of the entry; the packs write out that of all \
@@ -126,7 +136,7 @@ pub fn box_questions() -> impl Iterator<Item = Question> {
 }
 
 fn box_contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
-    let level = Level::new();
+    let (level, rounds) = (Level::new(), pairs.rounds());
     let ray = |ray: &Ray| BoxRay::<Vec3A>::new(&(*ray).into());
     let eight = pairs.packed(8, ray, AabbPack::<f32, 8>::from_aabbs);
     let sixteen = pairs.packed(16, ray, AabbPack::<f32, 16>::from_aabbs);
@@ -141,6 +151,7 @@ fn box_contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
         Contender::with_pass("isect `AabbPack::conservative` × 8", move || {
             dispatch!(level, simd => ask_packs(
                 &eight,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.conservative(simd, ray),
                 |hits| hits.mask.count_ones(),
@@ -149,6 +160,7 @@ fn box_contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
         Contender::with_pass("isect `AabbPack::conservative` × 16", move || {
             dispatch!(level, simd => ask_packs(
                 &sixteen,
+                rounds,
                 #[inline(always)]
                 |ray, pack| pack.conservative(simd, ray),
                 |hits| hits.mask.count_ones(),

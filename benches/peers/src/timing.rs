@@ -68,11 +68,12 @@ impl Contender {
     }
 }
 
-/// Asks `query` about all packs, and writes the answers down as a caller would: to be called where the processor's level
+/// Asks `query` about all packs in each round, and writes the answers down as a caller would: to be called where the processor's level
 /// is known. As in a traversal the ray is a local variable for all of its packs.
 #[inline(always)]
 pub fn ask_packs<A: Copy, P, T: Copy>(
     packs: &[(A, Vec<P>)],
+    rounds: usize,
     query: impl Fn(&A, &P) -> T,
     hits: impl Fn(&T) -> u32,
 ) -> usize {
@@ -81,7 +82,7 @@ pub fn ask_packs<A: Copy, P, T: Copy>(
     };
     let mut answers = vec![query(a, pack); packs[0].1.len()];
     let mut count = 0;
-    for (a, packs) in packs {
+    for (a, packs) in (0..rounds).flat_map(|_| packs) {
         let a = *black_box(a);
         for (pack, answer) in black_box(packs).iter().zip(&mut answers) {
             *answer = query(&a, pack);
