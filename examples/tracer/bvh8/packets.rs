@@ -229,7 +229,7 @@ mod tests {
 
     /// What packets find is what each of their rays finds alone, to the last bit; returns how many hit, and how
     /// many were occluded.
-    fn compare(hierarchy: &InPackets, rays: &[Ray<Vec3A>], active: u32) -> [u32; 2] {
+    fn compare(hierarchy: &InPackets, rays: &[Ray<Vec3A>], active: u32) -> [usize; 2] {
         let closest = hierarchy.closest_of_packet(rays);
         let mut alone = [None; PACKET];
         for (alone, ray) in alone.iter_mut().zip(rays) {
@@ -243,9 +243,9 @@ mod tests {
             let found = hierarchy.occluded_of_packet(&shadows, active);
             let alone = lanes(active).filter(|&lane| hierarchy.occluded(&shadows[lane]));
             assert_eq!(found, alone.fold(0, |bits, lane| bits | 1 << lane), "{shadows:?}");
-            occluded += found.count_ones();
+            occluded += lanes(found).count();
         }
-        [closest.iter().flatten().count() as u32, occluded]
+        [closest.iter().flatten().count(), occluded]
     }
 
     /// The rays start in one point or in many, and end beside each other, at vertices and edges of neighbours,
@@ -276,7 +276,7 @@ mod tests {
             let active = random.u32(..) & ((1 << packet.len()) - 1);
             let [hits, occluded] = compare(&hierarchy, &packet, active);
             found = [found[0] + hits, found[1] + occluded];
-            rays += packet.len() as u32;
+            rays += packet.len();
         }
         // Most rays are aimed at the mesh. Half of them count for the two questions of shadows.
         assert!(found[0] > rays / 2 && found[1] > rays / 2, "{found:?} of {rays}");
