@@ -22,7 +22,7 @@ use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2 as Binary;
 use obvhs::bvh2::builder::build_bvh2;
 
-use crate::accelerator::{Accelerator, MeshHit};
+use crate::accelerator::{Accelerator, MeshHit, lanes};
 
 pub(crate) use packets::{InPackets, PacketStack};
 
@@ -173,10 +173,7 @@ impl Bvh8 {
             if let Some(leaf) = child.as_leaf() {
                 let pack = &self.leaves[leaf];
                 let hits = pack.exact(simd, &ray);
-                let mut mask = hits.mask;
-                while mask != 0 {
-                    let lane = mask.trailing_zeros() as usize;
-                    mask &= mask - 1;
+                for lane in lanes(hits.mask) {
                     let found = Candidate::of_lane(full, pack, &hits, leaf, lane);
                     let best = self.closest_of(full, closest, found);
                     ray.t_max = best.greatest;
@@ -299,11 +296,9 @@ impl Node {
     #[inline(always)]
     fn enter<S: Simd>(&self, simd: S, ray: &BoxRay<Vec3A>, stack: &mut Vec<Entry>) {
         let hits = self.bounds.conservative(simd, ray);
-        let mut mask = hits.mask;
         let first = stack.len();
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize % WIDTH;
-            mask &= mask - 1;
+        for lane in lanes(hits.mask) {
+            let lane = lane % WIDTH;
             let entry = Entry { t_enter: hits.t_enter[lane], child: self.children[lane] };
             stack.push(entry);
             let mut at = stack.len() - 1;

@@ -204,6 +204,12 @@ pub(super) fn is_scalar<S: Simd>(simd: S) -> bool {
     simd.level().is_fallback()
 }
 
+/// The lanes of a mask, in order.
+#[inline(always)]
+pub(super) fn lanes_of<const N: usize>(mask: u32) -> impl Iterator<Item = usize> {
+    (0..N).filter(move |lane| (mask >> lane) & 1 == 1)
+}
+
 /// The same number in every lane.
 #[inline(always)]
 pub(super) fn splat<T: Lanes<N>, S: Simd, const N: usize>(simd: S, number: T) -> T::Wide<S> {

@@ -87,6 +87,7 @@ mod collection;
 mod filter;
 mod lanes;
 mod packet;
+mod sphere;
 mod triangle;
 
 pub use aabb::{AabbHits, AabbPack};

@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::filter::{self, Filtered};
-use super::lanes::{Columns, Fused, Lanes, is_scalar, splat};
+use super::lanes::{Columns, Fused, Lanes, is_scalar, lanes_of, splat};
 use crate::ray::triangle::watertight::{self, ShearedRay};
 use crate::ray::triangle::{Found, Frame, TriangleHit, exact, moller_trumbore};
 use crate::shape::{Ray, Triangle};
@@ -55,6 +55,24 @@ impl<T: Scalar, const N: usize> TriangleHits<T, N> {
         }
         let front = (self.front >> lane) & 1 == 1;
         Some(TriangleHit { t: self.t[lane], u: self.u[lane], v: self.v[lane], front })
+    }
+
+    /// Nothing found.
+    pub(super) const NONE: Self =
+        Self { t: [T::ZERO; N], u: [T::ZERO; N], v: [T::ZERO; N], front: 0, mask: 0 };
+
+    /// Asks about some lanes, and writes down what is found there.
+    #[inline]
+    pub(super) fn ask(&mut self, lanes: u32, intersect: impl Fn(usize) -> Option<TriangleHit<T>>) {
+        for lane in lanes_of::<N>(lanes) {
+            let bit = 1 << lane;
+            self.mask &= !bit;
+            if let Some(hit) = intersect(lane) {
+                (self.t[lane], self.u[lane], self.v[lane]) = (hit.t, hit.u, hit.v);
+                self.front = self.front & !bit | u32::from(hit.front) << lane;
+                self.mask |= bit;
+            }
+        }
     }
 
     /// The lane of the least t, and the hit there; of several at the same t the lowest lane.
@@ -181,10 +199,13 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
             return self.lane_by_lane(*ray, watertight::intersect::<V>);
         }
         // The axes in the order in which the shear wants them: it is along the last.
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][ray.axis as usize % 3];
+        let (axes, origin) = match ray.axis {
+            0 => ([1, 2, 0], ray.origin.yzx()),
+            1 => ([2, 0, 1], ray.origin.zxy()),
+            _ => ([0, 1, 2], ray.origin),
+        };
         let lanes = ShearedRay {
-            origin: Columns::of(simd, ray.turned_origin),
-            turned_origin: Columns::of(simd, ray.turned_origin),
+            origin: Columns::of(simd, origin),
             axis: 2,
             shear: [splat(simd, ray.shear[0]), splat(simd, ray.shear[1])],
             inverse: splat(simd, ray.inverse),
@@ -359,8 +380,7 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         ray: R,
         intersect: impl Fn(&R, &Triangle<V>) -> Option<TriangleHit<T>>,
     ) -> TriangleHits<T, N> {
-        let nothing = [T::ZERO; N];
-        let mut hits = TriangleHits { t: nothing, u: nothing, v: nothing, front: 0, mask: 0 };
+        let mut hits = TriangleHits::NONE;
         self.ask(ray, u32::MAX, &mut hits, intersect);
         hits
     }
@@ -375,24 +395,14 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
         hits: &mut TriangleHits<T, N>,
         intersect: impl Fn(&R, &Triangle<V>) -> Option<TriangleHit<T>>,
     ) {
-        for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
-            let bit = 1 << lane;
-            hits.mask &= !bit;
-            if let Some(hit) = intersect(&ray, &self.get(lane)) {
-                (hits.t[lane], hits.u[lane], hits.v[lane]) = (hit.t, hit.u, hit.v);
-                hits.front = hits.front & !bit | u32::from(hit.front) << lane;
-                hits.mask |= bit;
-            }
-        }
+        hits.ask(open, |lane| intersect(&ray, &self.get(lane)));
     }
 
     /// Whether the ray hits a triangle in the lanes of `open`.
     #[cold]
     #[inline(never)]
     fn any_of<V: Vector<Scalar = T>>(&self, ray: Ray<V>, open: u32) -> bool {
-        (0..N)
-            .filter(|lane| (open >> lane) & 1 == 1)
-            .any(|lane| exact::undecided(&ray, &self.get::<V>(lane)).is_some())
+        lanes_of::<N>(open).any(|lane| exact::undecided_hits(&ray, &self.get::<V>(lane)))
     }
 }
 

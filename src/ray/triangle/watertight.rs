@@ -16,8 +16,6 @@ use glam::Vec3;
 #[repr(C)]
 pub struct ShearedRay<V: Coordinates = Vec3> {
     pub(crate) origin: V,
-    /// The origin with the components of the next two axes first, and that of `axis` last.
-    pub(crate) turned_origin: V,
     /// The axis of the direction's largest component: 0, 1 or 2.
     pub(crate) axis: u32,
     /// The direction's next two components, cyclically, over the largest.
@@ -50,11 +48,6 @@ impl<V: Vector> ShearedRay<V> {
         let t_scale = if dz.is_mid_range() { one } else { dz.normalizer() };
         Self {
             origin: ray.origin,
-            turned_origin: match axis {
-                0 => ray.origin.yzx(),
-                1 => ray.origin.zxy(),
-                _ => ray.origin,
-            },
             axis,
             shear: [dx / dz, dy / dz],
             inverse: one / (dz * t_scale),

@@ -5,8 +5,8 @@ use core::slice;
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::super::aabb::AabbPack;
-use super::super::lanes::Lanes;
-use super::{Packs, closer};
+use super::super::lanes::{Lanes, lanes_of};
+use super::{Packs, any, closer, side_by_side};
 use crate::ray::aabb::{AabbHit, BoxRay, exact};
 use crate::shape::{Aabb, Ray};
 use crate::vector::Vector;
@@ -118,7 +118,11 @@ impl<T: Lanes<N>, const N: usize> Aabbs<T, N> {
     #[must_use]
     pub fn any<V: Vector<Scalar = T>>(&self, ray: &Ray<V>) -> bool {
         let ray = BoxRay::new(ray);
-        dispatch!(self.packs.level, simd => self.any_at(simd, &ray))
+        dispatch!(self.packs.level, simd => any(
+            &self.packs.packs,
+            #[inline(always)]
+            |pack| exact_mask(simd, pack, &ray) != 0,
+        ))
     }
 
     /// The indices of all that the ray hits, in order.
@@ -129,7 +133,14 @@ impl<T: Lanes<N>, const N: usize> Aabbs<T, N> {
         ray: &Ray<V>,
     ) -> impl Iterator<Item = usize> + use<'a, T, V, N> {
         let (ray, level) = (BoxRay::new(ray), self.packs.level);
-        self.packs.indices(N, move |packs| dispatch!(level, simd => masks(simd, packs, &ray)))
+        self.packs.indices(N, move |packs| {
+            dispatch!(level, simd => side_by_side(
+                packs,
+                N,
+                #[inline(always)]
+                |pack| exact_mask(simd, pack, &ray),
+            ))
+        })
     }
 
     #[inline(always)]
@@ -145,7 +156,7 @@ impl<T: Lanes<N>, const N: usize> Aabbs<T, N> {
             if hits.mask == 0 {
                 continue;
             }
-            for lane in (0..N).filter(|lane| (hits.mask >> lane) & 1 == 1) {
+            for lane in lanes_of::<N>(hits.mask) {
                 // A conservative entry is not beyond the one that is reported.
                 if best.is_none_or(|(_, best)| hits.t_enter[lane] < best.t_enter) {
                     let hit = exact::intersect(&ray, &pack.get::<V>(lane));
@@ -156,44 +167,27 @@ impl<T: Lanes<N>, const N: usize> Aabbs<T, N> {
         }
         best
     }
-
-    #[inline(always)]
-    fn any_at<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &BoxRay<V>) -> bool {
-        for pack in &self.packs.packs {
-            let mask = pack.conservative(simd, ray).mask;
-            if mask != 0 && exact_mask(pack, ray, mask) != 0 {
-                return true;
-            }
-        }
-        false
-    }
 }
 
-/// The masks of some packs, side by side.
+/// The lanes that are hit.
 #[inline(always)]
-fn masks<T: Lanes<N>, S: Simd, V: Vector<Scalar = T>, const N: usize>(
+fn exact_mask<T: Lanes<N>, S: Simd, V: Vector<Scalar = T>, const N: usize>(
     simd: S,
-    packs: &[AabbPack<T, N>],
+    pack: &AabbPack<T, N>,
     ray: &BoxRay<V>,
-) -> u64 {
-    let mut masks = 0;
-    for (number, pack) in packs.iter().enumerate() {
-        let mask = pack.conservative(simd, ray).mask;
-        if mask != 0 {
-            masks |= u64::from(exact_mask(pack, ray, mask)) << (number * N);
-        }
-    }
-    masks
+) -> u32 {
+    let mask = pack.conservative(simd, ray).mask;
+    if mask == 0 { 0 } else { exact_of(pack, ray, mask) }
 }
 
 /// The lanes of a mask that are hit.
 #[inline(never)]
-fn exact_mask<T: Lanes<N>, V: Vector<Scalar = T>, const N: usize>(
+fn exact_of<T: Lanes<N>, V: Vector<Scalar = T>, const N: usize>(
     pack: &AabbPack<T, N>,
     ray: &BoxRay<V>,
     mask: u32,
 ) -> u32 {
-    (0..N)
-        .filter(|lane| (mask >> lane) & 1 == 1 && exact::hits(ray, &pack.get(*lane)))
+    lanes_of::<N>(mask)
+        .filter(|&lane| exact::hits(ray, &pack.get(lane)))
         .fold(0, |lanes, lane| lanes | 1 << lane)
 }

@@ -79,6 +79,27 @@ impl<P> Packs<P> {
     }
 }
 
+/// Whether a pack has what is looked for. (The iterator's own `any` may stay outside of the caller, and so of its level.)
+#[inline(always)]
+fn any<P>(packs: &[P], has: impl Fn(&P) -> bool) -> bool {
+    for pack in packs {
+        if has(pack) {
+            return true;
+        }
+    }
+    false
+}
+
+/// The masks of some packs, side by side, of so many lanes each.
+#[inline(always)]
+fn side_by_side<P>(packs: &[P], lanes: usize, mask: impl Fn(&P) -> u32) -> u64 {
+    let mut masks = 0;
+    for (number, pack) in packs.iter().enumerate() {
+        masks |= u64::from(mask(pack)) << (number * lanes);
+    }
+    masks
+}
+
 /// The hit at the lesser t; the first of two at the same.
 #[inline(always)]
 fn closer<H>(

@@ -4,8 +4,9 @@ use core::slice;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::super::lanes::{Columns, Lanes, is_scalar, splat};
-use super::{Packs, closer};
+use super::super::lanes::{Columns, Lanes, is_scalar, lanes_of, splat};
+use super::super::sphere::SphereHits;
+use super::{Packs, any, closer, side_by_side};
 use crate::ray::sphere::robust::{self, Approach, Certain};
 use crate::ray::sphere::{Quadratic, SphereHit};
 use crate::shape::{Ray, Sphere};
@@ -39,13 +40,6 @@ struct SpherePack<T, const N: usize> {
     center: [[T; N]; 3],
     /// Negative in an empty lane.
     radius: [T; N],
-}
-
-/// Which spheres of a pack a ray hits, and where.
-struct SphereHits<T, const N: usize> {
-    t: [T; N],
-    leaving: u32,
-    mask: u32,
 }
 
 impl<T, const N: usize> Default for Spheres<T, N> {
@@ -133,7 +127,11 @@ impl<T: Lanes<N>, const N: usize> Spheres<T, N> {
     /// **Grade: exact.**
     #[must_use]
     pub fn any<V: Vector<Scalar = T>>(&self, ray: &Ray<V>) -> bool {
-        dispatch!(self.packs.level, simd => self.any_at(simd, ray))
+        dispatch!(self.packs.level, simd => any(
+            &self.packs.packs,
+            #[inline(always)]
+            |pack| pack.robust(simd, ray).mask != 0,
+        ))
     }
 
     /// The indices of all that the ray hits, in order.
@@ -144,7 +142,14 @@ impl<T: Lanes<N>, const N: usize> Spheres<T, N> {
         ray: &Ray<V>,
     ) -> impl Iterator<Item = usize> + use<'a, T, V, N> {
         let (ray, level) = (*ray, self.packs.level);
-        self.packs.indices(N, move |packs| dispatch!(level, simd => masks(simd, packs, &ray)))
+        self.packs.indices(N, move |packs| {
+            dispatch!(level, simd => side_by_side(
+                packs,
+                N,
+                #[inline(always)]
+                |pack| pack.robust(simd, &ray).mask,
+            ))
+        })
     }
 
     #[inline(always)]
@@ -157,7 +162,7 @@ impl<T: Lanes<N>, const N: usize> Spheres<T, N> {
         for (number, pack) in self.packs.packs.iter().enumerate() {
             let hits = pack.robust(simd, ray);
             if hits.mask != 0 {
-                for lane in (0..N).filter(|lane| (hits.mask >> lane) & 1 == 1) {
+                for lane in lanes_of::<N>(hits.mask) {
                     let leaving = (hits.leaving >> lane) & 1 == 1;
                     let next = Some((number * N + lane, SphereHit { t: hits.t[lane], leaving }));
                     best = closer(best, next, |next, best| next.t < best.t);
@@ -166,30 +171,6 @@ impl<T: Lanes<N>, const N: usize> Spheres<T, N> {
         }
         best
     }
-
-    #[inline(always)]
-    fn any_at<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &Ray<V>) -> bool {
-        for pack in &self.packs.packs {
-            if pack.robust(simd, ray).mask != 0 {
-                return true;
-            }
-        }
-        false
-    }
-}
-
-/// The masks of some packs, side by side.
-#[inline(always)]
-fn masks<T: Lanes<N>, S: Simd, V: Vector<Scalar = T>, const N: usize>(
-    simd: S,
-    packs: &[SpherePack<T, N>],
-    ray: &Ray<V>,
-) -> u64 {
-    let mut masks = 0;
-    for (number, pack) in packs.iter().enumerate() {
-        masks |= u64::from(pack.robust(simd, ray).mask) << (number * N);
-    }
-    masks
 }
 
 impl<T: Lanes<N>, const N: usize> SpherePack<T, N> {
@@ -213,8 +194,8 @@ impl<T: Lanes<N>, const N: usize> SpherePack<T, N> {
     #[inline(always)]
     fn robust<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &Ray<V>) -> SphereHits<T, N> {
         if is_scalar(simd) {
-            let mut hits = SphereHits { t: [T::ZERO; N], leaving: 0, mask: 0 };
-            self.ask(ray, u32::MAX, &mut hits, robust::intersect);
+            let mut hits = SphereHits::NONE;
+            hits.ask(u32::MAX, |lane| robust::intersect(ray, &self.get(lane)));
             return hits;
         }
         let (origin, direction) = (Columns::of(simd, ray.origin), Columns::of(simd, ray.direction));
@@ -237,29 +218,15 @@ impl<T: Lanes<N>, const N: usize> SpherePack<T, N> {
         };
         let open = T::bits::<S>(open);
         if open != 0 {
-            self.ask(ray, open, &mut hits, robust::undecided);
+            self.ask(ray, open, &mut hits);
         }
         hits
     }
 
-    /// Asks the scalar kernel about the lanes in `open`.
+    /// Asks the later stages about the lanes in `open`.
     #[cold]
     #[inline(never)]
-    fn ask<V: Vector<Scalar = T>>(
-        &self,
-        ray: &Ray<V>,
-        open: u32,
-        hits: &mut SphereHits<T, N>,
-        intersect: impl Fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<T>>,
-    ) {
-        for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
-            let bit = 1 << lane;
-            hits.mask &= !bit;
-            if let Some(hit) = intersect(ray, &self.get(lane)) {
-                hits.t[lane] = hit.t;
-                hits.leaving = hits.leaving & !bit | u32::from(hit.leaving) << lane;
-                hits.mask |= bit;
-            }
-        }
+    fn ask<V: Vector<Scalar = T>>(&self, ray: &Ray<V>, open: u32, hits: &mut SphereHits<T, N>) {
+        hits.ask(open, |lane| robust::undecided(ray, &self.get(lane)));
     }
 }

@@ -6,7 +6,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::super::lanes::Lanes;
 use super::super::triangle::TrianglePack;
-use super::{Packs, closer};
+use super::{Packs, any, closer, side_by_side};
 use crate::ray::triangle::TriangleHit;
 use crate::shape::{Ray, Triangle};
 use crate::vector::Vector;
@@ -131,7 +131,11 @@ impl<T: Lanes<N>, const N: usize> Triangles<T, N> {
     /// **Grade: exact.**
     #[must_use]
     pub fn any<V: Vector<Scalar = T>>(&self, ray: &Ray<V>) -> bool {
-        dispatch!(self.packs.level, simd => self.any_at(simd, ray))
+        dispatch!(self.packs.level, simd => any(
+            &self.packs.packs,
+            #[inline(always)]
+            |pack| pack.any(simd, ray),
+        ))
     }
 
     /// The indices of all that the ray hits, in order.
@@ -142,7 +146,14 @@ impl<T: Lanes<N>, const N: usize> Triangles<T, N> {
         ray: &Ray<V>,
     ) -> impl Iterator<Item = usize> + use<'a, T, V, N> {
         let (ray, level) = (*ray, self.packs.level);
-        self.packs.indices(N, move |packs| dispatch!(level, simd => masks(simd, packs, &ray)))
+        self.packs.indices(N, move |packs| {
+            dispatch!(level, simd => side_by_side(
+                packs,
+                N,
+                #[inline(always)]
+                |pack| pack.exact(simd, &ray).mask,
+            ))
+        })
     }
 
     #[inline(always)]
@@ -162,28 +173,4 @@ impl<T: Lanes<N>, const N: usize> Triangles<T, N> {
         }
         best
     }
-
-    #[inline(always)]
-    fn any_at<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &Ray<V>) -> bool {
-        for pack in &self.packs.packs {
-            if pack.any(simd, ray) {
-                return true;
-            }
-        }
-        false
-    }
-}
-
-/// The masks of some packs, side by side.
-#[inline(always)]
-fn masks<T: Lanes<N>, S: Simd, V: Vector<Scalar = T>, const N: usize>(
-    simd: S,
-    packs: &[TrianglePack<T, N>],
-    ray: &Ray<V>,
-) -> u64 {
-    let mut masks = 0;
-    for (number, pack) in packs.iter().enumerate() {
-        masks |= u64::from(pack.exact(simd, ray).mask) << (number * N);
-    }
-    masks
 }

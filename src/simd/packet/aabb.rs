@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::super::aabb::AabbHits;
-use super::super::lanes::{Lanes, is_scalar, splat};
+use super::super::lanes::{Lanes, is_scalar, lanes_of, splat};
 use super::RayPack;
 use crate::ray::aabb::{BoxRay, conservative};
 use crate::shape::Aabb;
@@ -83,7 +83,7 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         hits: &mut AabbHits<T, N>,
     ) {
         hits.mask &= !lanes;
-        for lane in (0..N).filter(|lane| (lanes >> lane) & 1 == 1) {
+        for lane in lanes_of::<N>(lanes) {
             let ray = BoxRay::<V>::new(&self.get(lane));
             if let Some([enter, _]) = conservative::interval(&ray, aabb) {
                 hits.mask |= 1 << lane;

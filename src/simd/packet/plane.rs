@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::super::lanes::{Columns, Lanes, is_scalar, splat};
+use super::super::lanes::{Columns, Lanes, is_scalar, lanes_of, splat};
 use super::RayPack;
 use crate::ray::plane::{self, Certain, PlaneHit};
 use crate::shape::{Plane, Ray};
@@ -100,7 +100,7 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         hits: &mut PlaneHits<T, N>,
         intersect: impl Fn(&Ray<V>, &Plane<V>) -> Option<PlaneHit<T>>,
     ) {
-        for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
+        for lane in lanes_of::<N>(open) {
             match intersect(&self.get(lane), plane) {
                 Some(PlaneHit::At(t)) => {
                     hits.t[lane] = t;

@@ -3,10 +3,11 @@
 use fearless_simd::Simd;
 
 use super::super::lanes::{Columns, Lanes, is_scalar, splat};
+use super::super::sphere::SphereHits;
 use super::{RayPack, replace};
 use crate::ray::sphere::robust::{self, Approach, Certain};
 use crate::ray::sphere::{Quadratic, SphereHit};
-use crate::shape::{Ray, Sphere};
+use crate::shape::Sphere;
 use crate::vector::{Scalar, Vector};
 
 /// The closest sphere so far of each ray in a packet, and the hit there.
@@ -84,8 +85,8 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
     ) -> u32 {
         let active = active & self.active;
         let hits = if is_scalar(simd) {
-            let mut hits = ClosestSpheres { index: [index; N], ..Default::default() };
-            self.ask_sphere(sphere, active, &mut hits, robust::intersect);
+            let mut hits = SphereHits::NONE;
+            hits.ask(active, |lane| robust::intersect(&self.get(lane), sphere));
             hits
         } else {
             let rays = self.wide(simd);
@@ -99,40 +100,30 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
             if mask | open == 0 {
                 return 0;
             }
-            let (t, leaving) = (T::store::<S>(t), T::bits::<S>(leaving));
-            let mut hits = ClosestSpheres { t, index: [index; N], leaving, mask };
+            let mut hits = SphereHits { t: T::store::<S>(t), leaving: T::bits::<S>(leaving), mask };
             if open != 0 {
-                self.ask_sphere(sphere, open, &mut hits, robust::undecided);
+                self.ask_sphere(sphere, open, &mut hits);
             }
             hits
         };
         let mask = hits.mask;
         self.shorten(mask, &hits.t);
         replace(mask, &mut closest.t, &hits.t);
-        replace(mask, &mut closest.index, &hits.index);
+        replace(mask, &mut closest.index, &[index; N]);
         closest.leaving = closest.leaving & !mask | hits.leaving & mask;
         closest.mask |= mask;
         mask
     }
 
-    /// Asks the scalar kernel about the lanes in `open`.
+    /// Asks the later stages about the lanes in `open`.
     #[cold]
     #[inline(never)]
     fn ask_sphere<V: Vector<Scalar = T>>(
         &self,
         sphere: &Sphere<V>,
         open: u32,
-        hits: &mut ClosestSpheres<T, N>,
-        intersect: impl Fn(&Ray<V>, &Sphere<V>) -> Option<SphereHit<T>>,
+        hits: &mut SphereHits<T, N>,
     ) {
-        for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
-            let bit = 1 << lane;
-            hits.mask &= !bit;
-            if let Some(hit) = intersect(&self.get(lane), sphere) {
-                hits.t[lane] = hit.t;
-                hits.leaving = hits.leaving & !bit | u32::from(hit.leaving) << lane;
-                hits.mask |= bit;
-            }
-        }
+        hits.ask(open, |lane| robust::undecided(&self.get(lane), sphere));
     }
 }

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::super::filter::{self, Filtered};
-use super::super::lanes::{Columns, Lanes, is_scalar, splat};
+use super::super::lanes::{Columns, Lanes, is_scalar, lanes_of, splat};
 use super::super::triangle::TriangleHits;
 use super::{RayPack, replace};
 use crate::ray::triangle::{Frame, TriangleHit, exact, moller_trumbore};
@@ -182,11 +182,14 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
     ) -> u32 {
         let active = active & self.active;
         if is_scalar(simd) {
-            return self.hits_of(triangle, active);
+            return self.hits_of(triangle, active, exact::hits);
         }
         let Filtered { found, open } = self.filter(simd, triangle);
         let (hit, open) = (T::bits::<S>(found.hit) & active, T::bits::<S>(open) & active);
-        if open == 0 { hit } else { hit & !open | self.hits_of(triangle, open) }
+        if open == 0 {
+            return hit;
+        }
+        hit & !open | self.hits_of(triangle, open, exact::undecided_hits)
     }
 
     #[inline(always)]
@@ -229,9 +232,7 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         if open != 0 {
             self.ask(triangle, open, &mut hits, intersect);
         }
-        self.shorten(hits.mask, &hits.t);
-        closest.keep(&hits, index);
-        hits.mask
+        self.take(&hits, index, closest)
     }
 
     /// Asks a scalar kernel about all active lanes.
@@ -243,11 +244,21 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         closest: &mut ClosestTriangles<T, N>,
         intersect: impl Fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<T>>,
     ) -> u32 {
-        let nothing = [T::ZERO; N];
-        let mut hits = TriangleHits { t: nothing, u: nothing, v: nothing, front: 0, mask: 0 };
+        let mut hits = TriangleHits::NONE;
         self.ask(triangle, active & self.active, &mut hits, intersect);
+        self.take(&hits, index, closest)
+    }
+
+    /// Ends the rays that hit there, and writes down where that is.
+    #[inline(always)]
+    fn take(
+        &mut self,
+        hits: &TriangleHits<T, N>,
+        index: u32,
+        closest: &mut ClosestTriangles<T, N>,
+    ) -> u32 {
         self.shorten(hits.mask, &hits.t);
-        closest.keep(&hits, index);
+        closest.keep(hits, index);
         hits.mask
     }
 
@@ -261,24 +272,20 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         hits: &mut TriangleHits<T, N>,
         intersect: impl Fn(&Ray<V>, &Triangle<V>) -> Option<TriangleHit<T>>,
     ) {
-        for lane in (0..N).filter(|lane| (open >> lane) & 1 == 1) {
-            let bit = 1 << lane;
-            hits.mask &= !bit;
-            if let Some(hit) = intersect(&self.get(lane), triangle) {
-                (hits.t[lane], hits.u[lane], hits.v[lane]) = (hit.t, hit.u, hit.v);
-                hits.front = hits.front & !bit | u32::from(hit.front) << lane;
-                hits.mask |= bit;
-            }
-        }
+        hits.ask(open, |lane| intersect(&self.get(lane), triangle));
     }
 
     /// Which lanes of `open` hit the triangle.
     #[cold]
     #[inline(never)]
-    fn hits_of<V: Vector<Scalar = T>>(&self, triangle: &Triangle<V>, open: u32) -> u32 {
-        (0..N)
-            .filter(|lane| (open >> lane) & 1 == 1)
-            .filter(|&lane| exact::hits(&self.get(lane), triangle))
+    fn hits_of<V: Vector<Scalar = T>>(
+        &self,
+        triangle: &Triangle<V>,
+        open: u32,
+        hits: impl Fn(&Ray<V>, &Triangle<V>) -> bool,
+    ) -> u32 {
+        lanes_of::<N>(open)
+            .filter(|&lane| hits(&self.get(lane), triangle))
             .fold(0, |lanes, lane| lanes | 1 << lane)
     }
 }

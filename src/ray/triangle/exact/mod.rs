@@ -175,6 +175,12 @@ pub fn classify<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Verdict {
     }
 }
 
+/// Hit or miss by the later stages.
+#[inline(always)]
+pub(crate) fn undecided_hits<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
+    undecided_verdict(ray, triangle) != Verdict::Miss
+}
+
 /// The later stages, without t, u and v.
 #[cold]
 #[inline(never)]
@@ -202,7 +208,7 @@ fn undecided_verdict<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Verdict
 pub fn hits<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> bool {
     match filter::decide(ray, triangle) {
         Ok(hit) => hit.is_some(),
-        Err(Undecided) => undecided_verdict(ray, triangle) != Verdict::Miss,
+        Err(Undecided) => undecided_hits(ray, triangle),
     }
 }
 
