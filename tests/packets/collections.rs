@@ -1,5 +1,7 @@
 //! Claim: at every level of the processor, a collection answers as a loop of the scalar kernels does.
 
+use std::fmt::Debug;
+
 use fearless_simd::Level;
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::ray::aabb::{BoxRay, exact as box_exact};
@@ -42,6 +44,33 @@ fn least<H: Copy, K: PartialOrd>(
 ) -> Option<(usize, H)> {
     let hits = hits.enumerate().filter_map(|(index, hit)| Some((index, hit?)));
     hits.reduce(|best, next| if key(&next.1) < key(&best.1) { next } else { best })
+}
+
+/// What a collection says of a ray: the closest hit, whether there is any, and the indices of all.
+type Answer<H> = (Option<(usize, H)>, bool, Vec<usize>);
+
+/// Holds what a collection says of two rays, by themselves and as many at once, against the hits of each shape; returns how many
+/// rays hit, and how often.
+fn check_answers<H: Copy + Debug + PartialEq, K: PartialOrd>(
+    answers: [Answer<H>; 2],
+    many: [Option<(usize, H)>; 2],
+    expected: &[Vec<Option<H>>; 2],
+    key: impl Fn(&H) -> K,
+    case: impl Fn() -> String,
+) -> [usize; 2] {
+    let mut counts = [0; 2];
+    for (((closest, any, hits), closest_of_many), expected) in
+        answers.into_iter().zip(many).zip(expected)
+    {
+        let least = least(expected.iter().copied(), &key);
+        assert_eq!(closest_of_many, least, "{}", case());
+        assert_eq!(closest, least, "{}", case());
+        assert_eq!(any, least.is_some(), "{}", case());
+        let indices = (0..expected.len()).filter(|&index| expected[index].is_some());
+        assert!(hits.iter().copied().eq(indices), "{}", case());
+        counts = [counts[0] + usize::from(any), counts[1] + hits.len()];
+    }
+    counts
 }
 
 /// Two rays: that of a hard case, and one that hits nothing.
@@ -88,19 +117,14 @@ fn triangles() {
                 let all = all.with_level(level);
                 let rays = two_rays(ray::<V>(&exact_ray));
                 let expected = rays.map(|ray| each_triangle::<V, N>(level, &ray, &some));
-                let closest =
-                    expected.each_ref().map(|hits| least(hits.iter().copied(), |hit| hit.t));
+                let answers =
+                    rays.map(|ray| (all.closest(&ray), all.any(&ray), all.hits(&ray).collect()));
                 let mut many = [None; 2];
                 all.closest_of(&rays, &mut many);
-                assert_eq!(many, closest, "{level:?} {rays:?} {some:?}");
-                for ((ray, expected), closest) in rays.iter().zip(&expected).zip(closest) {
-                    assert_eq!(all.closest(ray), closest);
-                    assert_eq!(all.any(ray), closest.is_some());
-                    let indices = (0..some.len()).filter(|&index| expected[index].is_some());
-                    assert!(all.hits(ray).eq(indices), "{level:?} {ray:?} {some:?}");
-                    rays_that_hit += usize::from(closest.is_some());
-                    hits += expected.iter().flatten().count();
-                }
+                let case = || format!("{level:?} {rays:?} {some:?}");
+                let counts = check_answers(answers, many, &expected, |hit| hit.t, case);
+                rays_that_hit += counts[0];
+                hits += counts[1];
             }
             println!("{:<6} × {N} {level:?}: {hits} hits of {rays_that_hit} rays", name::<V>());
             assert!(rays_that_hit > 300 && hits > 1_500, "{rays_that_hit} {hits}");
@@ -136,24 +160,16 @@ fn spheres() {
                 let all: Spheres<V::Scalar, N> = some.iter().copied().collect();
                 let all = all.with_level(level);
                 let rays = two_rays(ray::<V>(&exact_ray));
-                let closest = rays.map(|ray| {
-                    least(some.iter().map(|sphere| robust::intersect(&ray, sphere)), |hit| hit.t)
-                });
+                let expected = rays
+                    .map(|ray| some.iter().map(|sphere| robust::intersect(&ray, sphere)).collect());
+                let answers =
+                    rays.map(|ray| (all.closest(&ray), all.any(&ray), all.hits(&ray).collect()));
                 let mut many = [None; 2];
                 all.closest_of(&rays, &mut many);
-                assert_eq!(many, closest, "{level:?} {rays:?} {some:?}");
-                for (ray, closest) in rays.iter().zip(closest) {
-                    assert_eq!(all.closest(ray), closest);
-                    assert_eq!(all.any(ray), closest.is_some());
-                    let is_hit = |sphere: &Sphere<V>| robust::intersect(ray, sphere).is_some();
-                    let indices: Vec<_> = (0..some.len()).filter(|&i| is_hit(&some[i])).collect();
-                    assert!(
-                        all.hits(ray).eq(indices.iter().copied()),
-                        "{level:?} {ray:?} {some:?}"
-                    );
-                    rays_that_hit += usize::from(closest.is_some());
-                    hits += indices.len();
-                }
+                let case = || format!("{level:?} {rays:?} {some:?}");
+                let counts = check_answers(answers, many, &expected, |hit| hit.t, case);
+                rays_that_hit += counts[0];
+                hits += counts[1];
             }
             println!("{:<6} × {N} {level:?}: {hits} hits of {rays_that_hit} rays", name::<V>());
             assert!(rays_that_hit > 300 && hits > 1_000, "{rays_that_hit} {hits}");
@@ -190,26 +206,23 @@ fn boxes() {
                 let all: Aabbs<V::Scalar, N> = some.iter().copied().collect();
                 let all = all.with_level(level);
                 let rays = two_rays(ray::<V>(&exact_ray));
-                let closest = rays.map(|ray| {
+                let expected = rays.map(|ray| {
                     let ray = BoxRay::new(&ray);
-                    let each = some.iter().map(|aabb| box_exact::intersect(&ray, aabb));
-                    least(each, |hit| hit.t_enter)
+                    let hit = |aabb| {
+                        let hit = box_exact::intersect(&ray, aabb);
+                        assert_eq!(box_exact::hits(&ray, aabb), hit.is_some(), "{ray:?} {aabb:?}");
+                        hit
+                    };
+                    some.iter().map(hit).collect()
                 });
+                let answers =
+                    rays.map(|ray| (all.closest(&ray), all.any(&ray), all.hits(&ray).collect()));
                 let mut many = [None; 2];
                 all.closest_of(&rays, &mut many);
-                assert_eq!(many, closest, "{level:?} {rays:?} {some:?}");
-                for (ray, closest) in rays.iter().zip(closest) {
-                    assert_eq!(all.closest(ray), closest);
-                    assert_eq!(all.any(ray), closest.is_some());
-                    let is_hit = |aabb: &Aabb<V>| box_exact::hits(&BoxRay::new(ray), aabb);
-                    let indices: Vec<_> = (0..some.len()).filter(|&i| is_hit(&some[i])).collect();
-                    assert!(
-                        all.hits(ray).eq(indices.iter().copied()),
-                        "{level:?} {ray:?} {some:?}"
-                    );
-                    rays_that_hit += usize::from(closest.is_some());
-                    hits += indices.len();
-                }
+                let case = || format!("{level:?} {rays:?} {some:?}");
+                let counts = check_answers(answers, many, &expected, |hit| hit.t_enter, case);
+                rays_that_hit += counts[0];
+                hits += counts[1];
             }
             println!("{:<6} × {N} {level:?}: {hits} hits of {rays_that_hit} rays", name::<V>());
             assert!(rays_that_hit > 500 && hits > 2_000, "{rays_that_hit} {hits}");
