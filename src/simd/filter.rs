@@ -2,14 +2,25 @@
 //! lanes, whether the triangle differs from lane to lane or the ray: around the normal and s × d, as in
 //! Möller–Trumbore.
 //!
-//! Its four volumes have the same monomials as there, with as many roundings each (or fewer, where products
-//! and sums are fused), so its bound E = 56u·kd·s·(ka + s) holds. Different is:
+//! Its bound is tighter, component by component, as in a leaf of small triangles far from the ray's origin more lanes would be
+//! left open otherwise; a scalar stage costs as much as the pack. With [x y z] = Σ |x_i·y_j·z_k| over the six permutations of
+//! (i, j, k), p = |e1| + |e2| and q = |a| + p, where a = v0 − o:
 //!
-//! * t = T·(1/den) has a rounding more: in all within 26u·s²·(ka + s)/|den|, where 56u is kept clear.
-//! * 1/den must not overflow. The lengths count as at least 2⁻³² (`f64`: 2⁻²⁹⁶) instead of φ, which is 16 times
-//!   as much: where the signs are certain, |den| > 3E ≥ 3·2⁻¹⁹·2⁻⁹⁶, a normal number, and so is 1/den.
-//! * s counts as at least that, instead of both of its parts, and lengths from 2³⁷ (2³⁰¹) on are compared with it
-//!   instead of becoming infinite.
+//! * Each monomial of s1, s2 and den carries at most 7 roundings: of two differences, of a product and a sum in the cross
+//!   product, of a product and two sums in the dot product; fewer where these are fused. Those of s0 = den − s1 − s2 carry two
+//!   more. So with u = EPSILON/2 all are off by at most 9u·([e1 a d] + [e2 a d] + [e1 e2 d]) ≤ 9u·[p q d], and
+//!   E = 9.5u·[p q d] leaves enough for terms of second order and the rounding of E itself.
+//! * T = a·n carries 8, and |t·d| ≤ q in each component if the point lies in the triangle, so that T − t·den is off by at most
+//!   (8 + 7)u·Σ q_k·p_i·p_j, and t = T·(1/den) by (15 + 2)u/|den| times that sum, which is at most a quarter of P²·Q, P and Q
+//!   being the sums of the components of p and q. An end of the range is on the side of t on which it seems to be if it is
+//!   further off than 6u·P²·Q/|den|.
+//! * The components of p, q and d count as at least φ = 2⁻³² (`f64`: 2⁻²⁹⁶), and are below 2³⁷ (2³⁰¹), or the lane stays open.
+//!   So no product of three overflows, and where the signs are certain, |den| > 3E ≥ 3·6·9.5u·φ³, a normal number, and so is
+//!   1/den. What underflow loses of a determinant, at most η·(3 + 14k) with η = 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵) and k the longest component, is
+//!   less than 19u·φ²·k ≤ E by far. For t: with K_p and K_q the largest components, 57u·φ²·K_q ≤ 3E < |den| ≤ 3·K_p²·kd, to
+//!   which underflow adds less than E, so that |t| ≤ K_q/kd ≤ K_p²/(12u·φ²). Underflow in t·den then loses at most
+//!   η·((3 + 8·K_p)·K_p²/(12u·φ²) + 6·K_q), and (6 − 17/4)u·K_p²·K_q is left over for it: enough if φ³ ≥ η/(4u²), or φ ≥ 2⁻³⁴
+//!   (2⁻³²³), the other terms being smaller by far.
 
 use fearless_simd::Simd;
 
@@ -24,16 +35,9 @@ pub(super) struct Filtered<N: Number> {
     pub(super) open: N::Mask,
 }
 
-/// 56u, the factor of the bounds.
-#[inline(always)]
-fn factor<T: Scalar>() -> T {
-    let root = T::FILTER_RAISE * T::FILTER_LOWER;
-    root * root * root
-}
-
 /// The least length that counts.
 #[inline(always)]
-fn floor<T: Scalar>() -> T {
+pub(super) fn floor<T: Scalar>() -> T {
     T::FILTER_FLOOR * T::ONE.lit(16.0)
 }
 
@@ -43,28 +47,30 @@ fn cap<T: Scalar>() -> T {
     T::MAX / T::FILTER_RAISE
 }
 
-/// 56u·kd, infinite for a ray that the bound is not for: no sign is above that, so that it is left to the later
-/// stages.
+/// 9.5u·|d|, infinite for a ray that the bound is not for: no sign is above that, so that it is left to the later stages.
 #[inline(always)]
-pub(super) fn scaled_length<V: Vector>(ray: &Ray<V>) -> V::Scalar {
-    let kd = Coordinates::abs(ray.direction).max_element();
-    let usable = kd < cap::<V::Scalar>() && ray.t_min <= ray.t_max;
-    if usable { kd.max(floor()) * factor::<V::Scalar>() } else { V::Scalar::INFINITY }
+pub(super) fn reach<V: Vector>(ray: &Ray<V>) -> V {
+    let lengths = Coordinates::abs(ray.direction);
+    let usable = lengths.max_element() < cap::<V::Scalar>() && ray.t_min <= ray.t_max;
+    let factor = V::Scalar::EPSILON * V::Scalar::ONE.lit(4.75);
+    let factor = if usable { factor } else { V::Scalar::INFINITY };
+    Coordinates::max(lengths, V::splat(floor())) * factor
 }
 
-/// k1 + k2
+/// p = |e1| + |e2|
 #[inline(always)]
-pub(super) fn edge_lengths<V: Coordinates>(edge1: V, edge2: V) -> V::Scalar {
-    edge1.abs().max_element() + edge2.abs().max_element()
+pub(super) fn edge_lengths<V: Coordinates>(edge1: V, edge2: V, floor: V::Scalar) -> V {
+    edge1.abs().max(V::splat(floor)) + edge2.abs()
 }
 
-/// Which lanes hit in their range, and which the bound leaves open. `length` is [`scaled_length`], and `edges` are
-/// [`edge_lengths`]; the one that is the same in every lane is computed but once, by the caller.
+/// Which lanes hit in their range, and which the bound leaves open. `reach` is [`reach`], and `edges` are [`edge_lengths`]; the
+/// one that is the same in every lane is computed but once, by the caller.
 #[inline(always)]
 pub(super) fn decide<T, S, const N: usize>(
     simd: S,
     frame: &Frame<Columns<T::Wide<S>>>,
-    [length, edges]: [T::Wide<S>; 2],
+    reach: Columns<T::Wide<S>>,
+    edges: Columns<T::Wide<S>>,
     [t_min, t_max]: [T::Wide<S>; 2],
 ) -> Filtered<T::Wide<S>>
 where
@@ -74,10 +80,10 @@ where
     let Frame { direction, edge1, edge2, offset } = *frame;
     let zero = splat(simd, T::ZERO);
 
-    let s = edges.max(splat(simd, floor::<T>()));
-    let size = offset.abs().max_element() + s;
-    let area = s * size;
-    let (bound, t_bound) = (area * length, area * (s * splat(simd, factor::<T>())));
+    let size = offset.abs() + edges;
+    let bound = edges.fused_dot(size.fused_permanents(reach));
+    let (edges, size) = (edges.x + edges.y + edges.z, size.x + size.y + size.z);
+    let t_bound = (edges * edges) * (size * splat(simd, T::EPSILON * T::ONE.lit(3.0)));
 
     let normal = edge1.fused_cross(edge2);
     let moment = offset.fused_cross(direction);

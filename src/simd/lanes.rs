@@ -395,6 +395,16 @@ impl<N: Fused> Columns<N> {
             z: self.x.times_minus(other.y, self.y * other.x),
         }
     }
+
+    /// The cross product with sums in place of differences: of lengths, it bounds what the cross product may be.
+    #[inline(always)]
+    pub(super) fn fused_permanents(self, other: Self) -> Self {
+        Self {
+            x: self.y.times_plus(other.z, self.z * other.y),
+            y: self.z.times_plus(other.x, self.x * other.z),
+            z: self.x.times_plus(other.y, self.y * other.x),
+        }
+    }
 }
 
 #[cfg(test)]

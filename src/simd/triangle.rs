@@ -340,10 +340,11 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
     ) -> Filtered<T::Wide<S>> {
         let (lanes, triangles) = (wide_ray(simd, ray), self.wide(simd, [0, 1, 2]));
         let frame = Frame::new(&lanes, &triangles);
-        let edges = filter::edge_lengths(frame.edge1, frame.edge2);
-        let lengths = [splat(simd, filter::scaled_length(ray)), edges];
+        let floor = splat(simd, filter::floor::<T>());
+        let edges = filter::edge_lengths(frame.edge1, frame.edge2, floor);
+        let reach = Columns::of(simd, filter::reach(ray));
         let range = [lanes.t_min, lanes.t_max];
-        let Filtered { found, open } = filter::decide::<T, S, N>(simd, &frame, lengths, range);
+        let Filtered { found, open } = filter::decide::<T, S, N>(simd, &frame, reach, edges, range);
         Filtered { found, open: open & is_present(&triangles) }
     }
 

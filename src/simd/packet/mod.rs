@@ -76,7 +76,7 @@ pub struct RayPack<T, const N: usize> {
     near_inverse: [[T; N]; 3],
     far_inverse: [[T; N]; 3],
     /// As the filter of triangles wants it.
-    length: [T; N],
+    reach: [[T; N]; 3],
     t_min: [T; N],
     /// The greatest t that counts in each lane, as in [`Ray::t_max`]; a traversal lowers it to the closest hit
     /// so far, as the kernels do.
@@ -96,7 +96,7 @@ impl<T: Lanes<N>, const N: usize> Default for RayPack<T, N> {
             direction: vectors,
             near_inverse: vectors,
             far_inverse: vectors,
-            length: numbers,
+            reach: vectors,
             t_min: numbers,
             t_max: numbers,
             active: 0,
@@ -118,13 +118,14 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         let mut pack = Self::default();
         for (lane, ray) in rays.iter().enumerate() {
             let boxed = BoxRay::new(ray);
+            let reach = filter::reach(ray);
             for axis in 0..3 {
+                pack.reach[axis][lane] = reach.component(axis);
                 pack.origin[axis][lane] = ray.origin.component(axis);
                 pack.direction[axis][lane] = ray.direction.component(axis);
                 pack.near_inverse[axis][lane] = boxed.near_inverse.component(axis);
                 pack.far_inverse[axis][lane] = boxed.far_inverse.component(axis);
             }
-            pack.length[lane] = filter::scaled_length(ray);
             (pack.t_min[lane], pack.t_max[lane]) = (ray.t_min, ray.t_max);
             pack.active |= u32::from(ray.is_valid() && ray.has_range()) << lane;
             pack.boxed_apart |= u32::from(boxed.extreme | boxed.before_origin) << lane;

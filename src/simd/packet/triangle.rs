@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::super::filter::{self, Filtered};
-use super::super::lanes::{Columns, Lanes, is_scalar, lanes_of, splat};
+use super::super::lanes::{Columns, Lanes, is_scalar, lanes_of};
 use super::super::triangle::TriangleHits;
 use super::{RayPack, replace};
 use crate::ray::triangle::{Frame, TriangleHit, exact, moller_trumbore};
@@ -199,10 +199,11 @@ impl<T: Lanes<N>, const N: usize> RayPack<T, N> {
         triangle: &Triangle<V>,
     ) -> Filtered<T::Wide<S>> {
         let rays = self.wide(simd);
-        let edges = filter::edge_lengths(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
-        let lengths = [T::load(simd, &self.length), splat(simd, edges)];
+        let [edge1, edge2] = [triangle.v1 - triangle.v0, triangle.v2 - triangle.v0];
+        let edges = Columns::of(simd, filter::edge_lengths(edge1, edge2, filter::floor()));
+        let reach = Columns::load(simd, &self.reach, [0, 1, 2]);
         let frame = frame(simd, &rays, triangle);
-        filter::decide::<T, S, N>(simd, &frame, lengths, [rays.t_min, rays.t_max])
+        filter::decide::<T, S, N>(simd, &frame, reach, edges, [rays.t_min, rays.t_max])
     }
 
     /// Takes over what was found in the active lanes, after a scalar kernel was asked about the open ones.
