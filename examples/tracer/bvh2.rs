@@ -101,7 +101,7 @@ impl<K: TriangleKernel> Accelerator for Bvh2<K> {
                     let found = MeshHit { triangle, hit };
                     if found.is_before(&closest) {
                         K::shorten(&mut prepared, hit.t);
-                        boxes.t_max = hit.t.next_up();
+                        boxes.t_max = hit.t.next_up().min(boxes.t_max);
                         closest = Some(found);
                     }
                 }

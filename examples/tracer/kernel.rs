@@ -67,7 +67,7 @@ impl<K: Plain> TriangleKernel for K {
     }
 
     fn shorten(ray: &mut Self::Ray, t: f32) {
-        ray.t_max = Self::shortened(t);
+        ray.t_max = Self::shortened(t).min(ray.t_max);
     }
 
     fn intersect(ray: &Self::Ray, triangle: &Self::Triangle) -> Option<TriangleHit<f32>> {
