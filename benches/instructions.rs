@@ -27,7 +27,7 @@ const KERNELS: [(&str, f64); 9] = [
     ("conservative::hits", 52.0),
     ("TrianglePack::moller_trumbore", 19.0),
     ("TrianglePack::watertight", 19.0),
-    ("TrianglePack::exact", 20.0),
+    ("TrianglePack::exact", 23.0),
     ("AabbPack::conservative", 5.5),
 ];
 
