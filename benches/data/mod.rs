@@ -68,6 +68,20 @@ impl<A, B> Pairs<A, B> {
         self
     }
 
+    /// Another order: of the first parts, and of the second parts of each.
+    pub(crate) fn shuffle(&mut self, random: &mut fastrand::Rng) {
+        for i in (1..self.first.len()).rev() {
+            let j = random.usize(..=i);
+            self.first.swap(i, j);
+            for k in 0..self.per_first {
+                self.second.swap(i * self.per_first + k, j * self.per_first + k);
+            }
+        }
+        for some in self.second.chunks_exact_mut(self.per_first) {
+            random.shuffle(some);
+        }
+    }
+
     /// How often all pairs are asked.
     pub(crate) fn rounds(&self) -> usize {
         self.rounds

@@ -71,7 +71,7 @@ fn main() -> ExitCode {
         .chain(packs::box_questions());
     for mut question in questions.filter(|q| q.title.contains(&options.question)) {
         question.contenders.retain(|c| c.is_reference || c.name.contains(&options.filter));
-        let results = timing::race(&question.contenders, rounds);
+        let results = timing::race(&mut question.contenders, rounds);
         println!("{}", report::table(&question, &results));
     }
     ExitCode::SUCCESS

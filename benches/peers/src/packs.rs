@@ -56,54 +56,52 @@ fn triangle_contenders(pairs: &Pairs<Ray, Triangle>) -> Vec<Contender> {
             |t| *t < f32::INFINITY,
         )
         .reference(),
-        Contender::with_pass("isect `TrianglePack::moller_trumbore` × 8", move || {
-            dispatch!(level, simd => ask_packs(
-                &fast,
+        Contender::of_packs("isect `TrianglePack::moller_trumbore` × 8", fast, move |packs| {
+            dispatch!(level, simd => ask_packs( packs,
                 rounds,
                 #[inline(always)]
                 |ray, pack| pack.moller_trumbore(simd, ray),
                 |hits| hits.mask.count_ones(),
             ))
         }),
-        Contender::with_pass("isect `TrianglePack::watertight` × 8", move || {
-            dispatch!(level, simd => ask_packs(
-                &sheared,
+        Contender::of_packs("isect `TrianglePack::watertight` × 8", sheared, move |packs| {
+            dispatch!(level, simd => ask_packs( packs,
                 rounds,
                 #[inline(always)]
                 |ray, pack| pack.watertight(simd, ray),
                 |hits| hits.mask.count_ones(),
             ))
         }),
-        Contender::with_pass("isect `TrianglePack::exact` × 8", move || {
-            dispatch!(level, simd => ask_packs(
-                &certain,
+        Contender::of_packs("isect `TrianglePack::exact` × 8", certain, move |packs| {
+            dispatch!(level, simd => ask_packs( packs,
                 rounds,
                 #[inline(always)]
                 |ray, pack| pack.exact(simd, ray),
                 |hits| hits.mask.count_ones(),
             ))
         }),
-        Contender::with_pass("isect `TrianglePack::exact` × 16", move || {
-            dispatch!(level, simd => ask_packs(
-                &sixteen,
+        Contender::of_packs("isect `TrianglePack::exact` × 16", sixteen, move |packs| {
+            dispatch!(level, simd => ask_packs( packs,
                 rounds,
                 #[inline(always)]
                 |ray, pack| pack.exact(simd, ray),
                 |hits| hits.mask.count_ones(),
             ))
         }),
-        Contender::with_pass("isect `TrianglePack::closest` × 8 (hits: of packs)", move || {
-            dispatch!(level, simd => ask_packs(
-                &closest,
-                rounds,
-                #[inline(always)]
-                |ray, pack| pack.closest(simd, ray),
-                |hit| u32::from(hit.is_some()),
-            ))
-        }),
-        Contender::with_pass("isect `TrianglePack::any` × 8 (hits: of packs)", move || {
-            dispatch!(level, simd => ask_packs(
-                &any,
+        Contender::of_packs(
+            "isect `TrianglePack::closest` × 8 (hits: of packs)",
+            closest,
+            move |packs| {
+                dispatch!(level, simd => ask_packs( packs,
+                    rounds,
+                    #[inline(always)]
+                    |ray, pack| pack.closest(simd, ray),
+                    |hit| u32::from(hit.is_some()),
+                ))
+            },
+        ),
+        Contender::of_packs("isect `TrianglePack::any` × 8 (hits: of packs)", any, move |packs| {
+            dispatch!(level, simd => ask_packs( packs,
                 rounds,
                 #[inline(always)]
                 |ray, pack| pack.any(simd, ray),
@@ -148,18 +146,16 @@ fn box_contenders(pairs: &Pairs<Ray, Aabb>) -> Vec<Contender> {
             |t| *t < f32::INFINITY,
         )
         .reference(),
-        Contender::with_pass("isect `AabbPack::conservative` × 8", move || {
-            dispatch!(level, simd => ask_packs(
-                &eight,
+        Contender::of_packs("isect `AabbPack::conservative` × 8", eight, move |packs| {
+            dispatch!(level, simd => ask_packs( packs,
                 rounds,
                 #[inline(always)]
                 |ray, pack| pack.conservative(simd, ray),
                 |hits| hits.mask.count_ones(),
             ))
         }),
-        Contender::with_pass("isect `AabbPack::conservative` × 16", move || {
-            dispatch!(level, simd => ask_packs(
-                &sixteen,
+        Contender::of_packs("isect `AabbPack::conservative` × 16", sixteen, move |packs| {
+            dispatch!(level, simd => ask_packs( packs,
                 rounds,
                 #[inline(always)]
                 |ray, pack| pack.conservative(simd, ray),

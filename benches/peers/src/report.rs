@@ -34,8 +34,8 @@ pub fn machine() -> String {
     let build =
         if cfg!(debug_assertions) { " **A debug build: the numbers mean nothing.**" } else { "" };
     format!(
-        "{cpu}; {rustc}; {}, {flags}.{build}\n\n{PAIRS} pairs per table, in random order of \
-         hits and misses. Times in ns per query. The ratio is taken round by round; its \
+        "{cpu}; {rustc}; {}, {flags}.{build}\n\n{PAIRS} pairs per table, in an order of \
+         hits and misses that is new each round. Times in ns per query. The ratio is taken round by round; its \
          spread is from the 10th to the 90th percentile. Clock cycles are those of the best round.\n",
         std::env::consts::ARCH
     )

@@ -1,7 +1,8 @@
 //! Contenders, and the race between them.
 
 use std::hint::black_box;
-use std::time::Instant;
+use std::mem;
+use std::time::{Duration, Instant};
 
 use crate::data::{PAIRS, Pairs};
 
@@ -30,9 +31,21 @@ pub struct Contender {
     pub name: &'static str,
     /// Whether the others are compared with this one.
     pub is_reference: bool,
-    /// Asks all queries, and counts the hits.
-    pass: Box<dyn Fn() -> usize>,
+    pass: Pass,
 }
+
+/// Asks all queries in a new order, and says how many are hits and how long the asking took: of an order that comes again and
+/// again the processor learns every branch, which flatters kernels that branch.
+type Pass = Box<dyn FnMut(&mut fastrand::Rng) -> (usize, Duration)>;
+
+fn timed(ask: impl FnOnce() -> usize) -> (usize, Duration) {
+    let start = Instant::now();
+    let hits = black_box(ask());
+    (hits, start.elapsed())
+}
+
+/// Packs for each of the rays, or whatever asks.
+pub type Packs<A, P> = Vec<(A, Vec<P>)>;
 
 impl Contender {
     /// A contender that asks `query` about all `pairs`.
@@ -41,23 +54,45 @@ impl Contender {
     /// nothing is hoisted out of the loop, vectorised across it, or left out of the answer.
     pub fn new<A: 'static, B: 'static, T>(
         name: &'static str,
-        pairs: Pairs<A, B>,
+        mut pairs: Pairs<A, B>,
         query: impl Fn(&A, &B) -> T + 'static,
         is_hit: impl Fn(&T) -> bool + 'static,
     ) -> Self {
-        let pass = move || {
-            let mut hits = 0;
-            pairs.for_each(|a, b| {
-                let answer = black_box(query(black_box(a), black_box(b)));
-                hits += usize::from(is_hit(&answer));
-            });
-            hits
+        let pass = move |random: &mut fastrand::Rng| {
+            pairs.shuffle(random);
+            timed(|| {
+                let mut hits = 0;
+                pairs.for_each(|a, b| {
+                    let answer = black_box(query(black_box(a), black_box(b)));
+                    hits += usize::from(is_hit(&answer));
+                });
+                hits
+            })
         };
         Self { name, is_reference: false, pass: Box::new(pass) }
     }
 
     /// A contender with a loop of its own over as many queries, [`ask_packs`] in most cases, which counts the hits.
-    pub fn with_pass(name: &'static str, pass: impl Fn() -> usize + 'static) -> Self {
+    pub fn of_packs<A: 'static, P: 'static>(
+        name: &'static str,
+        mut packs: Packs<A, P>,
+        ask: impl Fn(&[(A, Vec<P>)]) -> usize + 'static,
+    ) -> Self {
+        let pass = move |random: &mut fastrand::Rng| {
+            // The contents change places, and the memory that they lie in is gone through in order, as for pairs.
+            for i in (1..packs.len()).rev() {
+                if let (rest, [last, ..]) = packs.split_at_mut(i)
+                    && let Some(other) = rest.get_mut(random.usize(..=i))
+                {
+                    mem::swap(&mut last.0, &mut other.0);
+                    last.1.swap_with_slice(&mut other.1);
+                }
+            }
+            for (_, some) in &mut packs {
+                random.shuffle(some);
+            }
+            timed(|| ask(&packs))
+        };
         Self { name, is_reference: false, pass: Box::new(pass) }
     }
 
@@ -121,20 +156,19 @@ pub struct Outcome {
 }
 
 /// Lets the contenders run in turns; the outcomes are in their order.
-pub fn race(contenders: &[Contender], rounds: usize) -> Vec<Outcome> {
+pub fn race(contenders: &mut [Contender], rounds: usize) -> Vec<Outcome> {
     let mut random = fastrand::Rng::with_seed(2);
     let mut order: Vec<usize> = (0..contenders.len()).collect();
     // The first pass warms up, and is not timed.
-    let hits: Vec<usize> = contenders.iter().map(|c| (c.pass)()).collect();
+    let hits: Vec<usize> = contenders.iter_mut().map(|c| (c.pass)(&mut random).0).collect();
     let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
     let mut shortest_cycle = f64::INFINITY;
     for _ in 0..rounds {
         shortest_cycle = shortest_cycle.min(cycle());
         random.shuffle(&mut order);
         for &i in &order {
-            let start = Instant::now();
-            black_box((contenders[i].pass)());
-            times[i].push(start.elapsed().as_secs_f64() * 1e9 / PAIRS as f64);
+            let (_, time) = (contenders[i].pass)(&mut random);
+            times[i].push(time.as_secs_f64() * 1e9 / PAIRS as f64);
         }
     }
     let reference =
