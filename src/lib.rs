@@ -1,4 +1,4 @@
-//! Intersection kernels for renderers: a ray against a plane, sphere, box or triangle, and a triangle
+//! Intersection kernels for renderers: a ray or a cone against a plane, sphere, box or triangle, and a triangle
 //! against a box, on [glam]'s vectors, in `f32` and `f64`.
 //!
 //! **Each kernel states what it promises, and an oracle in exact arithmetic holds it to that.**
@@ -32,9 +32,18 @@
 //! | | [`ray::triangle::moller_trumbore`] | fast | | Möller & Trumbore 1997 |
 //! | | [`ray::triangle::badouel`] | fast | [`ray::triangle::badouel::Prepared`] | Badouel 1990 |
 //! | | [`ray::triangle::segura`] | fast, without a division | | Segura & Feito 1998 |
+//! | ray, polygon | [`ray::polygon`] | fast | | Badouel 1990 |
 //! | triangle, box | [`overlap::triangle_aabb::exact`], the default | exact | | Akenine-Möller 2001 |
 //! | | [`overlap::triangle_aabb::sat`] | fast | | Akenine-Möller 2001 |
 //! | | [`overlap::triangle_aabb::clip`] | fast, gives the polygon | | Sutherland & Hodgman 1974 |
+//! | pyramid, triangle | [`overlap::pyramid_triangle`] | conservative | | Genetti et al. 1998 |
+//! | pyramid, sphere | [`overlap::pyramid_sphere`] | conservative | | Genetti et al. 1998 |
+//! | pyramid, box | [`overlap::pyramid_aabb`] | conservative | | Assarsson & Möller 2000 |
+//! | beam, polygon | [`overlap::beam_polygon`] | fast, gives what is lit and what goes on | | Heckbert & Hanrahan 1984 |
+//! | cone, plane | [`overlap::cone_plane`] | conservative; covered share of the section | | Amanatides 1984 |
+//! | cone, sphere | [`overlap::cone_sphere`] | conservative; covered share | | Amanatides 1984 |
+//! | cone, box | [`overlap::cone_aabb`] | conservative; covered share | | Amanatides 1984 |
+//! | cone, triangle | [`overlap::cone_triangle`] | conservative; covered share | | Amanatides 1984 |
 //!
 //! # Grades
 //!
@@ -42,7 +51,7 @@
 //!   the speed of floats: these decide wherever an error bound lets them, and integers where not. t, u and v
 //!   are within a stated error bound.
 //! * **Watertight**: no ray slips between two triangles that share an edge or a vertex.
-//!   **Conservative**: no box that the ray touches is missed.
+//!   **Conservative**: no box that the ray touches is missed, no shape that touches a pyramid is outside of it.
 //! * **Fast**: t, u and v are within a stated error bound of the exact ones; near an edge, within that
 //!   bound, the verdict may be wrong, and a ray may slip between two triangles.
 //!
@@ -106,5 +115,5 @@ mod vector;
 struct Readme;
 
 pub use ray::Intersect;
-pub use shape::{Aabb, Affine, Face, Plane, Ray, Sphere, Triangle};
+pub use shape::{Aabb, Affine, Beam, Cone, Face, Plane, Polygon, Pyramid, Ray, Sphere, Triangle};
 pub use vector::{Coordinates, Mask, Number, Scalar, Vector};

@@ -339,7 +339,27 @@ mod root32 {
 }
 #[cfg(not(feature = "std"))]
 mod root64 {
-    pub(super) use libm::sqrt;
+    pub(super) use libm::{acos, asinh, atan2, sqrt, tan};
+}
+
+/// The angle in [0, π] with this cosine.
+pub(crate) fn acos(cosine: f64) -> f64 {
+    root64::acos(cosine)
+}
+
+/// The inverse of the hyperbolic sine.
+pub(crate) fn asinh(x: f64) -> f64 {
+    root64::asinh(x)
+}
+
+/// The angle of the point (x, y), in [−π, π]; 0 for the point (0, 0).
+pub(crate) fn atan2(y: f64, x: f64) -> f64 {
+    root64::atan2(y, x)
+}
+
+/// The tangent.
+pub(crate) fn tan(angle: f64) -> f64 {
+    root64::tan(angle)
 }
 
 /// 2 to the power of a normal exponent.

@@ -7,7 +7,9 @@
 mod support;
 
 mod bad_input;
+mod beam;
 mod bounds;
+mod cone;
 mod conservative;
 mod exact;
 mod hard_suites;
@@ -17,5 +19,6 @@ mod obvhs;
 mod overlap;
 mod packs;
 mod properties;
+mod pyramid;
 mod spawn;
 mod watertight;

@@ -6,6 +6,7 @@
 
 pub mod aabb;
 pub mod plane;
+pub mod polygon;
 pub mod sphere;
 pub mod triangle;
 

@@ -4,58 +4,19 @@
 //! 1974. Each new vertex is computed from the triangle and the box, not from vertices that were
 //! themselves computed, so that errors do not add up.
 
-use core::{array, fmt};
+use core::array;
 
 use glam::Vec3;
 
-use crate::shape::{Aabb, Triangle};
+use crate::shape::{Aabb, Polygon, Triangle};
 use crate::vector::{Number, Scalar, Vector};
 
 /// A triangle clipped by 6 planes gains at most one vertex at each.
 const CAPACITY: usize = 9;
 
 /// The part of a triangle that lies in a box: a convex polygon of at most 9 vertices, in the order
-/// of the triangle's. It may be a segment or a point, with vertices that coincide.
-#[derive(Clone, Copy)]
-#[repr(C)]
-pub struct ClippedPolygon<V = Vec3> {
-    /// Those from `len` on mean nothing.
-    vertices: [V; CAPACITY],
-    len: usize,
-}
-
-/// Of the vertices.
-impl<V: Vector> fmt::Debug for ClippedPolygon<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("ClippedPolygon").field(&self.vertices()).finish()
-    }
-}
-
-/// Of the vertices, in order.
-impl<V: Vector> PartialEq for ClippedPolygon<V> {
-    fn eq(&self, other: &Self) -> bool {
-        self.vertices() == other.vertices()
-    }
-}
-
-impl<V: Vector> ClippedPolygon<V> {
-    const EMPTY: Self = Self { vertices: [V::ZERO; CAPACITY], len: 0 };
-
-    /// The vertices; none if triangle and box do not overlap.
-    #[inline]
-    #[must_use]
-    pub fn vertices(&self) -> &[V] {
-        &self.vertices[..self.len]
-    }
-
-    /// The smallest box around the polygon, which lies in the box that clipped it;
-    /// [`Aabb::EMPTY`] if there is no vertex.
-    #[inline]
-    #[must_use]
-    pub fn aabb(&self) -> Aabb<V> {
-        Aabb::from_points(self.vertices().iter().copied())
-    }
-}
+/// of the triangle's; none if they do not overlap. It may be a segment or a point, with vertices that coincide.
+pub type ClippedPolygon<V = Vec3> = Polygon<V, CAPACITY>;
 
 /// Whether the triangle and the box share a point: [`clip`] leaves a vertex.
 ///
@@ -71,7 +32,7 @@ impl<V: Vector> ClippedPolygon<V> {
 #[inline]
 #[must_use]
 pub fn overlaps<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> bool {
-    clip(triangle, aabb).len > 0
+    !clip(triangle, aabb).vertices().is_empty()
 }
 
 /// The part of the triangle that lies in the box.
@@ -102,18 +63,14 @@ pub fn clip<V: Vector>(triangle: &Triangle<V>, aabb: &Aabb<V>) -> ClippedPolygon
     let [a, b, c] = corners.map(|v| v.abs().max_element());
     let largest = a.max(b.max(c));
     if (largest * largest).is_mid_range() {
-        return Polygon::new(corners).clipped(aabb);
+        return Cutting::new(corners).clipped(aabb);
     }
     // Products of coordinates may over- or underflow: scaled by a power of two, and back. What the
     // scaling rounds of the box is made good at the end.
     let scale = largest.normalizer();
     let scaled = Aabb::new(aabb.min * scale, aabb.max * scale);
-    let mut polygon = Polygon::new(corners.map(|v| v * scale)).clipped(&scaled);
-    for vertex in &mut polygon.vertices {
-        let unscaled = vertex.divided(V::splat(scale));
-        *vertex = unscaled.max(aabb.min).min(aabb.max);
-    }
-    polygon
+    let polygon = Cutting::new(corners.map(|v| v * scale)).clipped(&scaled);
+    polygon.map(|vertex| vertex.divided(V::splat(scale)).max(aabb.min).min(aabb.max))
 }
 
 /// A plane across an axis that keeps the points on one side of it, and on itself.
@@ -134,7 +91,7 @@ enum Carrier<T> {
 }
 
 /// The polygon while it is being cut.
-struct Polygon<V: Vector> {
+struct Cutting<V: Vector> {
     triangle: [V; 3],
     vertices: [V; CAPACITY],
     /// For each vertex what carries the edge that leaves it.
@@ -142,7 +99,7 @@ struct Polygon<V: Vector> {
     len: usize,
 }
 
-impl<V: Vector> Polygon<V> {
+impl<V: Vector> Cutting<V> {
     fn new(triangle: [V; 3]) -> Self {
         Self {
             triangle,
@@ -166,7 +123,7 @@ impl<V: Vector> Polygon<V> {
                 polygon = polygon.cut(Plane { axis, bound: max, above: false });
             }
         }
-        ClippedPolygon { vertices: polygon.vertices, len: polygon.len }
+        ClippedPolygon::new(&polygon.vertices[..polygon.len]).unwrap_or_default()
     }
 
     /// The part on the kept side of a plane.
