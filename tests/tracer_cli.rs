@@ -55,10 +55,12 @@ impl Folder {
 
     /// Runs the tracer here, for a picture small enough for a debug build.
     fn run(&self, arguments: &[&str]) -> Output {
-        let small = ["--samples=1", "--depth=2"];
-        let size: &[&str] = if arguments.contains(&"--size") { &[] } else { &["--size", "16x9"] };
+        let is_given = |option| arguments.contains(&option);
+        let samples: &[&str] = if is_given("--antialias") { &[] } else { &["--samples", "1"] };
+        let size: &[&str] = if is_given("--size") { &[] } else { &["--size", "16x9"] };
         Command::new(tracer())
-            .args(small)
+            .args(["--depth", "2"])
+            .args(samples)
             .args(size)
             .args(arguments)
             .current_dir(&self.0)
@@ -115,12 +117,52 @@ fn a_bad_mesh_is_named_with_the_reason() {
 #[test]
 fn bad_options_are_named_with_the_reason() {
     let folder = Folder::new("options");
-    let cases: [(&[&str], &str); 15] = [
+    let cases: [(&[&str], &str); 52] = [
         (&["--size", "0x9"], "at least one pixel"),
         (&["--size", "100000x100000"], "more than 67108864 pixels"),
         (&["--size", "wide"], "not of the form 960x540"),
         (&["--samples", "0"], "'--samples"),
-        (&["--samples", "289"], "'--samples"),
+        (&["--samples", "8"], "not a square number from 1 to 1024"),
+        (&["--samples", "1089"], "not a square number from 1 to 1024"),
+        (&["--crop", "0,0,9"], "not of the form 0,0,480,270"),
+        (&["--crop", "0,0,-9,9"], "not of the form 0,0,480,270"),
+        (&["--crop", "5,5,9,5"], "no pixels in it"),
+        (&["--crop", "0,0,9,541"], "'--crop 0,0,9,541': there are no pixels beyond 960x540"),
+        (&["--crop", "0,0,9,9", "--bench"], "cannot be used with '--bench'"),
+        (&["--merge"], "a value is required for '--merge"),
+        (&["--merge", "a.png", "--crop", "0,0,9,9"], "'--crop' has no place with '--merge'"),
+        (&["--merge", "a.png", "--seed", "1"], "'--seed' has no place with '--merge'"),
+        (&["--compare"], "a value is required for '--compare"),
+        (&["--compare", "none/plot.svg"], "none/plot.svg: "),
+        (&["--compare", "a.svg", "--samples", "4"], "'--samples' has no place with '--compare'"),
+        (&["--compare", "a.svg", "--output", "a.png"], "'--output' has no place"),
+        (&["--compare", "a.svg", "--merge", "a.png"], "'--compare' has no place with '--merge'"),
+        (&["--antialias", "some"], "'--antialias"),
+        (&["--fog", "thick"], "'--fog"),
+        (&["--fog", "linear", "--fog-range", "4"], "not of the form 4,24"),
+        (&["--fog", "linear", "--fog-range", "4,4"], "not 0 ≤ DMIN < DMAX"),
+        (
+            &["--fog", "linear", "--fog-density", "1"],
+            "'--fog-density' has no place with '--fog linear'",
+        ),
+        (&["--fog", "exponential", "--fog-density", "0"], "not a number greater than 0"),
+        (&["--fog", "exponential", "--fog-range", "1,2"], "'--fog-range' has no place"),
+        (&["--fog", "linear", "--fog-color", "1,1,2"], "not three numbers from 0 to 1"),
+        (&["--fog-color", "1,1,1"], "'--fog-color' has no place with '--fog none'"),
+        (&["--scene", "textures", "--mesh", "x.obj"], "no mesh in this scene"),
+        (&["--antialias", "none", "--samples", "4"], "'--samples' has no place"),
+        (&["--antialias", "adaptive", "--samples", "4"], "'--samples' has no place"),
+        (&["--antialias", "adaptive", "--max-level", "7"], "not in 0..=6"),
+        (&["--antialias", "adaptive", "--packets"], "'--antialias adaptive' has no packets"),
+        (&["--antialias", "pyramid", "--samples", "4"], "'--samples' has no place"),
+        (&["--antialias", "pyramid", "--max-level", "7"], "not in 0..=6"),
+        (&["--antialias", "pyramid", "--packets"], "'--antialias pyramid' has no packets"),
+        (&["--max-level", "2"], "'--max-level' has no place with '--antialias uniform'"),
+        (&["--antialias", "stochastic", "--seed", "one"], "'--seed"),
+        (&["--seed", "1"], "'--seed' has no place with '--antialias uniform'"),
+        (&["--mode", "beam"], "'--mode beam' is for '--scene polygons' only"),
+        (&["--scene", "polygons", "--mode", "beam", "--packets"], "'--packets' has no place"),
+        (&["--mode", "waves"], "'--mode"),
         (&["--depth", "65"], "not in 0..=64"),
         (&["--threads", "2000"], "not in 0..=1024"),
         (&["--triangle", "none"], "'--triangle"),
@@ -194,6 +236,156 @@ fn threads_packets_and_the_hierarchy_do_not_change_the_bytes() {
 }
 
 #[test]
+fn no_method_depends_on_threads() {
+    let folder = Folder::new("methods");
+    let picture = |method: &[&str], arguments: &[&str]| {
+        let scene = ["--scene", "edges", "--mesh", "icosphere:1", "--size", "40x36"];
+        let output = folder.run(&[&scene[..], &["--antialias"], method, arguments].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read(folder.0.join("tracer.png")).unwrap()
+    };
+    let methods: [&[&str]; 6] = [
+        &["none"],
+        &["uniform"],
+        &["adaptive", "--max-level", "1"],
+        &["adaptive", "--max-level", "2"],
+        &["stochastic"],
+        &["stochastic", "--seed", "1"],
+    ];
+    let pictures = methods.map(|method| picture(method, &["--threads", "1"]));
+    for (index, method) in methods.into_iter().enumerate() {
+        assert_eq!(pictures[index], picture(method, &["--threads", "2"]), "{method:?}");
+        assert!(!pictures[..index].contains(&pictures[index]), "{method:?} has no effect");
+        if method[0] != "adaptive" {
+            assert_eq!(pictures[index], picture(method, &["--packets"]), "{method:?}");
+        }
+    }
+}
+
+#[test]
+fn each_scene_and_each_fog_makes_another_picture() {
+    let folder = Folder::new("scenes");
+    let options: [&[&str]; 13] = [
+        &["--scene", "showcase"],
+        &["--scene", "mesh"],
+        &["--scene", "spheres"],
+        &["--scene", "shares"],
+        &["--scene", "textures"],
+        &["--scene", "lamps"],
+        &["--scene", "edges"],
+        &["--fog", "linear"],
+        &["--fog", "linear", "--fog-range", "0,9.5"],
+        &["--fog", "linear", "--fog-color", "1,0.5,0"],
+        &["--fog", "exponential"],
+        &["--fog", "exponential", "--fog-density", "0.2"],
+        &["--fog", "exponential", "--fog-color", "1,0.5,0"],
+    ];
+    let mut pictures = Vec::new();
+    for arguments in options {
+        let output = folder.run(arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let picture = fs::read(folder.0.join("tracer.png")).unwrap();
+        assert!(!pictures.contains(&picture), "{arguments:?} has no effect");
+        pictures.push(picture);
+    }
+}
+
+/// The parts of a picture of 40 × 34 pixels, as files of these names in a folder.
+const PARTS: [(&str, &str); 3] =
+    [("a.png", "0,0,33,20"), ("b.png", "33,0,40,20"), ("c.png", "0,20,40,34")];
+
+impl Folder {
+    /// Renders a picture, or a part of it, by the method with a seed.
+    fn render(&self, file: &str, mesh: &str, arguments: &[&str]) -> Vec<u8> {
+        let scene = ["--scene", "mesh", "--mesh", mesh, "--size", "40x34"];
+        let rest = ["--antialias", "stochastic", "--output", file];
+        let output = self.run(&[&scene[..], &rest, arguments].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read(self.0.join(file)).unwrap()
+    }
+
+    /// Puts parts together.
+    fn merge(&self, parts: &[&str]) -> Output {
+        let command = [&["--output", "merged.png", "--merge"], parts].concat();
+        Command::new(tracer()).args(command).current_dir(&self.0).output().unwrap()
+    }
+}
+
+#[test]
+fn parts_make_the_same_file_as_the_whole() {
+    let folder = Folder::new("parts");
+    for method in ["none", "uniform", "adaptive", "stochastic"] {
+        let run = |arguments: &[&str]| {
+            let scene = ["--scene", "edges", "--mesh", "icosphere:1"];
+            let common = [&scene[..], &["--size", "40x34", "--antialias", method]].concat();
+            assert!(folder.run(&[&common, arguments].concat()).status.success());
+        };
+        run(&["--output", "whole.png"]);
+        for (file, crop) in PARTS {
+            run(&["--crop", crop, "--output", file, "--threads", "1"]);
+        }
+        let output = folder.merge(&["c.png", "a.png", "b.png"]);
+        assert!(output.status.success() && output.stderr.is_empty());
+        assert_eq!(String::from_utf8(output.stdout).unwrap(), "merged.png\n");
+        let file = |name| fs::read(folder.0.join(name)).unwrap();
+        assert!(file("merged.png") == file("whole.png"), "{method}");
+    }
+}
+
+#[test]
+fn parts_that_do_not_fit_are_named_with_the_reason() {
+    let folder = Folder::new("unfit");
+    for (file, crop) in PARTS {
+        folder.render(file, "icosphere:1", &["--crop", crop]);
+    }
+    let bytes = folder.render("whole.png", "icosphere:1", &[]);
+    folder.file("text.png", "no picture");
+    let crop = ["--crop", PARTS[1].1];
+    folder.render("mesh.png", "icosphere:0", &crop);
+    let others: [(&str, &[&str]); 3] = [
+        ("seed.png", &["--seed", "1"]),
+        ("fog.png", &["--fog", "exponential"]),
+        ("kernel.png", &["--triangle", "watertight"]),
+    ];
+    for (file, other) in others {
+        folder.render(file, "icosphere:1", &[&crop, other].concat());
+    }
+    folder.render("wide.png", "icosphere:1", &["--crop", "30,10,40,34"]);
+    let part = fs::read(folder.0.join("c.png")).unwrap();
+    folder.file("cut.png", &part[..part.len() / 2]);
+    // The text is changed, and its checksum is not.
+    let at = part.windows(10).position(|bytes| bytes == b"0,20,40,34").unwrap();
+    folder.file("changed.png", [&part[..at], b"0,20,40,33", &part[at + 10..]].concat());
+    assert!(!bytes.windows(4).any(|bytes| bytes == b"tEXt"));
+
+    let cases: [(&[&str], &str); 13] = [
+        (&["a.png", "b.png"], "the pixels 0,20,40,34 are in none of the parts"),
+        (&["c.png", "a.png"], "the pixels 33,0,40,20 are in none of the parts"),
+        (&["b.png", "c.png"], "the pixels 0,0,33,20 are in none of the parts"),
+        (&["a.png", "b.png", "c.png", "a.png"], "a.png: the pixels 0,0,33,20 are in a.png too"),
+        (&["a.png", "wide.png", "b.png"], "wide.png: the pixels 30,10,33,20 are in a.png too"),
+        (&["a.png", "seed.png", "c.png"], "seed.png: of another picture than a.png: "),
+        (&["a.png", "fog.png", "c.png"], "fog.png: of another picture than a.png: "),
+        (&["a.png", "mesh.png", "c.png"], "mesh.png: of another picture than a.png: "),
+        (&["a.png", "kernel.png", "c.png"], "kernel.png: of another picture than a.png: "),
+        (&["whole.png"], "whole.png: not a part of a picture: no text 'Crop' in it"),
+        (&["text.png"], "text.png: "),
+        (&["a.png", "b.png", "cut.png"], "cut.png: "),
+        (&["a.png", "b.png", "none.png"], "none.png: "),
+    ];
+    let before = folder.names();
+    for (parts, reason) in cases {
+        let output = folder.merge(parts);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{parts:?}: {said}");
+        assert!(said.starts_with(&format!("error: {reason}")), "{parts:?}: {said}");
+        assert_eq!((said.lines().count(), folder.names()), (1, before.clone()));
+    }
+    // A damaged text is passed over, or the file refused: either way there is no picture.
+    assert_eq!(folder.merge(&["a.png", "b.png", "changed.png"]).status.code(), Some(2));
+}
+
+#[test]
 fn the_bench_makes_a_table_and_no_picture() {
     let folder = Folder::new("bench");
     let output = folder.run(&["--bench", "--mesh", "icosphere:1"]);
@@ -211,4 +403,27 @@ fn the_bench_makes_a_table_and_no_picture() {
     }
     assert!(table.contains("triangles         80\n"), "{table}");
     assert!(folder.names().is_empty());
+}
+
+#[test]
+fn the_comparison_makes_a_table_and_a_plot() {
+    let folder = Folder::new("compare");
+    let arguments =
+        ["--size", "5x4", "--depth", "0", "--mesh", "icosphere:0", "--compare", "plot.svg"];
+    let output = Command::new(tracer()).args(arguments).current_dir(&folder.0).output().unwrap();
+    assert!(output.status.success() && output.stderr.is_empty());
+    let table = String::from_utf8(output.stdout).unwrap();
+    let plot = String::from_utf8(fs::read(folder.0.join("plot.svg")).unwrap()).unwrap();
+    assert_eq!(folder.names(), ["plot.svg"]);
+    assert!(plot.starts_with("<svg") && plot.trim_end().ends_with("</svg>"));
+    for method in ["none", "uniform", "adaptive", "stochastic"] {
+        let rows: Vec<_> = table.lines().filter(|line| line.starts_with(method)).collect();
+        assert!(rows.len() >= 2, "{table}");
+        for row in rows {
+            let numbers: Vec<f64> =
+                row.split_whitespace().rev().take(3).map(|word| word.parse().unwrap()).collect();
+            assert!(numbers[..2].iter().all(|x| *x > 0.0), "{row}");
+        }
+        assert!(plot.contains(method), "{method}");
+    }
 }

@@ -51,6 +51,24 @@ impl<K: TriangleKernel> Bvh2<K> {
         }
     }
 
+    /// Visits the triangles whose boxes, and those of the nodes above them, have something.
+    pub(crate) fn visit(&self, has: impl Fn(&Aabb<Vec3A>) -> bool, mut visit: impl FnMut(u32)) {
+        let mut stack = Vec::from_iter(self.nodes.first());
+        while let Some(node) = stack.pop() {
+            let obvhs::aabb::Aabb { min, max } = *node.aabb();
+            if !has(&Aabb { min, max }) {
+                continue;
+            }
+            let first = node.first_index as usize;
+            if node.is_leaf() {
+                let triangles = &self.triangles[first..first + node.prim_count as usize];
+                triangles.iter().for_each(|&(triangle, _)| visit(triangle));
+            } else {
+                stack.extend(&self.nodes[first..first + 2]);
+            }
+        }
+    }
+
     /// Visits the leaves whose boxes the ray may touch, roughly from near to far, until `visit`
     /// returns true. `visit` may lower the end of the ray's range.
     fn traverse(

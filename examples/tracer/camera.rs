@@ -1,7 +1,7 @@
 //! The pinhole camera: a ray from the eye through each pixel's centre.
 
-use isect::Ray;
 use isect::glam::Vec3A;
+use isect::{Pyramid, Ray};
 
 /// Where to look from, at what, and how wide.
 #[derive(Clone, Copy, Debug)]
@@ -53,10 +53,38 @@ impl Camera {
     ///
     /// d = forward + (2x/width − 1)·right + (1 − 2y/height)·up, normalised.
     pub(crate) fn ray(&self, x: f32, y: f32) -> Ray<Vec3A> {
+        Ray::new(self.eye, self.direction(x, y).normalize())
+    }
+
+    /// The pyramid of the rays through a rectangle of the picture, with the corners in the order upper left, upper
+    /// right, lower right, lower left. `None` if it is too narrow for floats.
+    pub(crate) fn pyramid(&self, [x0, y0]: [f32; 2], [x1, y1]: [f32; 2]) -> Option<Pyramid<Vec3A>> {
+        let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
+        Pyramid::new(self.eye, corners.map(|(x, y)| self.direction(x, y)))
+    }
+
+    /// Where all rays start.
+    pub(crate) fn eye(&self) -> Vec3A {
+        self.eye
+    }
+
+    /// The directions to the corners of the picture, in the same order.
+    pub(crate) fn corners(&self) -> [Vec3A; 4] {
+        let (right, bottom) = (self.width, self.height);
+        [(0.0, 0.0), (right, 0.0), (right, bottom), (0.0, bottom)]
+            .map(|(x, y)| self.direction(x, y))
+    }
+
+    /// How far a point lies ahead.
+    pub(crate) fn depth(&self, point: Vec3A) -> f32 {
+        self.forward.dot(point - self.eye)
+    }
+
+    /// The direction to a point of the picture, which lies ahead by 1.
+    fn direction(&self, x: f32, y: f32) -> Vec3A {
         let along = 2.0 * x / self.width - 1.0;
         let above = 1.0 - 2.0 * y / self.height;
-        let direction = self.forward + self.right * along + self.up * above;
-        Ray::new(self.eye, direction.normalize())
+        self.forward + self.right * along + self.up * above
     }
 }
 
@@ -86,6 +114,21 @@ mod tests {
         assert!((up.y - 0.5_f32.sqrt()).abs() < 1e-6 && up.x.abs() < 1e-6);
         let right = camera.ray(1600.0, 450.0).direction;
         assert!((right.x / -right.z - 16.0 / 9.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_pixel_is_a_pyramid_around_its_ray() {
+        let camera = Camera::new(&VIEW, 1600, 900);
+        let pyramid = camera.pyramid([100.0, 200.0], [101.0, 201.0]).expect("it is wide enough");
+        let corners = [(100.0, 200.0), (101.0, 200.0), (101.0, 201.0), (100.0, 201.0)];
+        for (corner, (x, y)) in pyramid.corners.into_iter().zip(corners) {
+            assert!((corner.normalize() - camera.ray(x, y).direction).length() < 1e-6);
+        }
+        for (x, y, inside) in [(100.5, 200.5, true), (99.9, 200.5, false), (100.5, 201.1, false)] {
+            assert_eq!(pyramid.contains(camera.ray(x, y).at(3.0)), inside);
+        }
+        let too_narrow = camera.pyramid([100.0, 200.0], [100.0, 201.0]);
+        assert!(too_narrow.is_none());
     }
 
     #[test]

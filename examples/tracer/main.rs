@@ -8,15 +8,22 @@
 //! ```
 
 mod accelerator;
+mod antialias;
+mod beams;
 mod bench;
 mod bvh2;
 mod bvh8;
 mod camera;
+mod compare;
 mod failure;
+mod fog;
 mod kernel;
 mod mesh;
 mod optics;
 mod output;
+mod paint;
+mod part;
+mod picture;
 mod render;
 mod scene;
 mod shade;
@@ -28,20 +35,27 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use clap::{Parser, ValueEnum};
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{CommandFactory, FromArgMatches, Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use isect::Triangle;
 use isect::glam::Vec3A;
 
 use accelerator::{Accelerator, NaiveLoop};
+use antialias::{Eye, Method};
+use beams::Beams;
 use bench::bench;
 use bvh2::Bvh2;
 use bvh8::{Bvh8, InPackets};
 use camera::Camera;
+use compare::Comparison;
 use kernel::{Badouel, Exact, MollerTrumbore, Segura, TriangleKernel, Watertight};
 use mesh::Obj;
 use output::Output;
-use render::{Settings, render};
+use part::{Place, digest, merge, parse_crop};
+use picture::srgb;
+use render::{Tile, render};
 use scene::{Scene, SceneName};
 use shade::{RayCounts, Tracer};
 
@@ -55,7 +69,11 @@ Examples:
   tracer --scene mesh --mesh teapot.obj --output teapot.png
   tracer --packets
   tracer --size 96x54 --samples 1 --accel none --triangle moller-trumbore
-  tracer --scene mesh --mesh icosphere:8 --bench";
+  tracer --antialias stochastic --samples 16 --fog exponential
+  tracer --compare plot.svg
+  tracer --scene mesh --mesh icosphere:8 --bench
+  parallel tracer --crop 0,{1},960,{2} --output part{1}.png ::: 0 135 270 405 :::+ 135 270 405 540
+  tracer --merge part*.png --output whole.png";
 
 /// Renders a scene of a mesh, spheres, boxes and planes, and tells how fast.
 #[derive(Debug, Parser)]
@@ -70,12 +88,22 @@ struct Arguments {
     /// Width and height of the picture, at most 64 Mi pixels
     #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = parse_size)]
     size: [u32; 2],
-    /// Samples per pixel on a regular grid: 1, 4, 9, … 256
-    #[arg(long, value_name = "N", default_value = "4", value_parser = parse_samples)]
-    samples: SamplesPerEdge,
+    /// Renders only the columns X0 to X1 − 1 and the rows Y0 to Y1 − 1, as a part for --merge
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop, conflicts_with = "bench")]
+    crop: Option<Tile>,
+    /// Instead of rendering, puts together the parts of a picture, in any order
+    #[arg(long, value_name = "PART.png", num_args = 1..)]
+    merge: Vec<PathBuf>,
+    #[command(flatten)]
+    antialias: antialias::Options,
+    #[command(flatten)]
+    fog: fog::Options,
     /// How many times a ray is reflected or refracted at most, 0 to 64
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=64))]
     depth: u32,
+    /// How it is found out what is seen
+    #[arg(long, value_enum, default_value = "rays")]
+    mode: Mode,
     /// The ray/triangle kernel
     #[arg(long, value_name = "KERNEL", value_enum, default_value = "exact")]
     triangle: KernelName,
@@ -91,9 +119,22 @@ struct Arguments {
     /// Instead of a picture, tells how fast bvh8, its packets and obvhs's CWBVH find the hits of WxH rays, on one thread
     #[arg(long)]
     bench: bool,
+    /// Instead of a picture, a table and a plot of the errors of all methods of --antialias by the time they take, against
+    /// 1,024 samples; in a scene that is hard to sample and 240x135 if nothing else is said
+    #[arg(long, value_name = "PLOT.svg")]
+    compare: Option<PathBuf>,
     /// Where to write the picture, as PNG
     #[arg(long, value_name = "FILE.png", default_value = "tracer.png")]
     output: PathBuf,
+}
+
+/// The ways to find out what is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Mode {
+    /// Rays, reflected and refracted
+    Rays,
+    /// Beams, divided by polygons and reflected by mirrors; with '--scene polygons' only
+    Beam,
 }
 
 /// The kernels to choose from.
@@ -130,6 +171,37 @@ impl Arguments {
             _ => AcceleratorName::Bvh2,
         })
     }
+
+    /// How a pixel gets its colour, if the options fit each other.
+    fn method(&self) -> Result<Method, String> {
+        if self.mesh.is_some() && !self.scene.has_mesh() {
+            return Err("there is no mesh in this scene, so '--mesh' has no place".into());
+        }
+        let is_exact = matches!(self.triangle, KernelName::Exact);
+        if matches!(self.accel, Some(AcceleratorName::Bvh8)) && !is_exact {
+            return Err("'--accel bvh8' is for '--triangle exact' only".into());
+        }
+        if self.mode == Mode::Beam && self.scene != SceneName::Polygons {
+            return Err("'--mode beam' is for '--scene polygons' only".into());
+        }
+        if self.packets && self.mode == Mode::Beam {
+            return Err("'--packets' has no place with '--mode beam'".into());
+        }
+        if self.packets && !matches!(self.accelerator(), AcceleratorName::Bvh8) {
+            return Err("'--packets' is for '--accel bvh8' only".into());
+        }
+        if self.bench && !self.scene.has_mesh() {
+            return Err("there is no mesh in this scene, so '--bench' has nothing to do".into());
+        }
+        if let Some(crop) = &self.crop {
+            crop.check(self.size).map_err(|reason| format!("'--crop {crop}': {reason}"))?;
+        }
+        let method = self.antialias.method()?;
+        if self.packets && !method.has_packets() {
+            return Err(format!("'--antialias {}' has no packets", method.name()));
+        }
+        Ok(method)
+    }
 }
 
 /// Where a mesh comes from.
@@ -139,10 +211,6 @@ enum MeshSource {
     /// How often the faces of an icosahedron are split in four.
     Icosphere(u32),
 }
-
-/// The square root of the number of samples.
-#[derive(Clone, Copy, Debug)]
-struct SamplesPerEdge(u16);
 
 /// Reads `960x540`.
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
@@ -160,15 +228,6 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
     }
 }
 
-/// Reads a square number.
-fn parse_samples(text: &str) -> Result<SamplesPerEdge, String> {
-    let samples: u16 = text.parse().map_err(|_| "not a number from 1 to 256")?;
-    (1..=16)
-        .find(|edge| edge * edge == samples)
-        .map(SamplesPerEdge)
-        .ok_or_else(|| "not a square number from 1 to 256".into())
-}
-
 /// Reads `icosphere:8`; all else is the name of a file.
 fn parse_mesh(text: &str) -> Result<MeshSource, String> {
     let Some(level) = text.strip_prefix("icosphere:") else {
@@ -180,8 +239,49 @@ fn parse_mesh(text: &str) -> Result<MeshSource, String> {
     }
 }
 
+/// The options beside which --merge has a place, itself among them.
+const MERGE: &[&str] = &["merge", "output"];
+
+/// Likewise for --compare.
+const COMPARE: &[&str] = &[
+    "compare",
+    "scene",
+    "mesh",
+    "size",
+    "fog",
+    "fog_range",
+    "fog_density",
+    "fog_color",
+    "depth",
+    "triangle",
+    "accel",
+    "threads",
+];
+
+/// Reads the command line.
+fn parse() -> Result<Arguments, clap::Error> {
+    let mut command = Arguments::command();
+    let mut matches = command.try_get_matches_from_mut(std::env::args_os())?;
+    let is_given = |option: &str| matches.value_source(option) == Some(ValueSource::CommandLine);
+    for (mode, has_place) in [("merge", MERGE), ("compare", COMPARE)] {
+        let is_misplaced = |option: &&str| is_given(option) && !has_place.contains(option);
+        let mut options = command.get_arguments().map(|argument| argument.get_id().as_str());
+        if let (true, Some(option)) = (is_given(mode), options.find(is_misplaced)) {
+            let reason = format!("'--{}' has no place with '--{mode}'", option.replace('_', "-"));
+            return Err(clap::Error::raw(ErrorKind::ArgumentConflict, reason));
+        }
+    }
+    let [has_scene, has_size] = ["scene", "size"].map(is_given);
+    let mut arguments = Arguments::from_arg_matches_mut(&mut matches)?;
+    if arguments.compare.is_some() {
+        arguments.scene = if has_scene { arguments.scene } else { SceneName::Edges };
+        arguments.size = if has_size { arguments.size } else { [240, 135] };
+    }
+    Ok(arguments)
+}
+
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let arguments = match parse() {
         Ok(arguments) => arguments,
         Err(error) if error.use_stderr() => {
             // The reason is in the first line; usage and tips follow it.
@@ -190,24 +290,7 @@ fn main() -> ExitCode {
         }
         Err(help) => help.exit(),
     };
-    if arguments.mesh.is_some() && !arguments.scene.has_mesh() {
-        eprintln!("error: there is no mesh in this scene, so '--mesh' has no place");
-        return ExitCode::from(2);
-    }
-    let is_exact = matches!(arguments.triangle, KernelName::Exact);
-    if matches!(arguments.accel, Some(AcceleratorName::Bvh8)) && !is_exact {
-        eprintln!("error: '--accel bvh8' is for '--triangle exact' only");
-        return ExitCode::from(2);
-    }
-    if arguments.packets && !matches!(arguments.accelerator(), AcceleratorName::Bvh8) {
-        eprintln!("error: '--packets' is for '--accel bvh8' only");
-        return ExitCode::from(2);
-    }
-    if arguments.bench && !arguments.scene.has_mesh() {
-        eprintln!("error: there is no mesh in this scene, so '--bench' has nothing to do");
-        return ExitCode::from(2);
-    }
-    match run(&arguments) {
+    match arguments.method().map_err(Into::into).and_then(|method| run(&arguments, method)) {
         Ok(report) => {
             // A reader who has gone does not make the picture worse.
             let _ = std::io::stdout().write_all(report.as_bytes());
@@ -221,7 +304,13 @@ fn main() -> ExitCode {
 }
 
 /// Renders and writes the picture; returns what to say about it.
-fn run(arguments: &Arguments) -> Result<String, Box<dyn std::error::Error>> {
+fn run(arguments: &Arguments, method: Method) -> Result<String, Box<dyn std::error::Error>> {
+    if !arguments.merge.is_empty() {
+        let output = Output::new(&arguments.output)?;
+        let picture = merge(&arguments.merge)?;
+        output.write(|file| picture.encode(file, None))?;
+        return Ok(format!("{}\n", arguments.output.display()));
+    }
     let obj = match &arguments.mesh {
         Some(MeshSource::File(file)) => Obj::read(file)?,
         Some(MeshSource::Icosphere(level)) => Obj::icosphere(*level),
@@ -231,8 +320,9 @@ fn run(arguments: &Arguments) -> Result<String, Box<dyn std::error::Error>> {
         let scene = arguments.scene.build(obj);
         return Ok(bench(&scene, &scene.mesh.triangles(), arguments.size));
     }
-    let output = Output::new(&arguments.output)?;
-    let scene = arguments.scene.build(obj);
+    let mut scene = arguments.scene.build(obj);
+    scene.fog = arguments.fog.fog(scene.horizon())?;
+    let output = Output::new(arguments.compare.as_ref().unwrap_or(&arguments.output))?;
     let triangles = scene.mesh.triangles();
 
     let start = Instant::now();
@@ -240,22 +330,52 @@ fn run(arguments: &Arguments) -> Result<String, Box<dyn std::error::Error>> {
     let build_time = start.elapsed();
 
     let [width, height] = arguments.size;
-    let settings = Settings { width, height, samples_per_edge: arguments.samples.0 };
     let camera = Camera::new(&scene.view, width, height);
-    let tracer = Tracer::new(&scene, &*accelerator, arguments.depth);
+    let beams = match arguments.mode {
+        Mode::Rays => None,
+        Mode::Beam => {
+            let beams = Beams::new(&scene, &camera, arguments.depth);
+            Some(beams.ok_or("a shape of this scene is no polygon")?)
+        }
+    };
+    let tracer = Tracer::new(&scene, &*accelerator, arguments.depth).with_beams(beams.as_ref());
+    let has_solids = method.has_solids() || arguments.compare.is_some();
+    let hierarchy = has_solids.then(|| Bvh2::<Exact>::new(&triangles, scene.extent()));
+    let eye = Eye { tracer: &tracer, camera: &camera, hierarchy: hierarchy.as_ref() };
+    let part = arguments.crop.clone().unwrap_or(Tile { x: 0..width, y: 0..height });
     let threads = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.into()).build()?;
+    let tiles = match arguments.compare {
+        Some(_) => Comparison::tiles(&part),
+        None => part.tiles().len(),
+    };
     // It draws on a terminal, and nowhere else.
-    let bar = ProgressBar::new(settings.tiles()).with_style(
+    let bar = ProgressBar::new(tiles as u64).with_style(
         ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left")
             .expect("the template is well formed"),
     );
+    if arguments.compare.is_some() {
+        let comparison = threads.install(|| Comparison::new(&eye, &part, || bar.inc(1)));
+        bar.finish_and_clear();
+        let plot = comparison.plot()?;
+        output.write(|file| file.write_all(plot.as_bytes()))?;
+        return Ok(comparison.table());
+    }
     let start = Instant::now();
-    let (picture, counts) = threads.install(|| render(&tracer, &camera, &settings, || bar.inc(1)));
+    let (picture, counts) = threads.install(|| render(&eye, method, &part, srgb, || bar.inc(1)));
     let render_time = start.elapsed();
     bar.finish_and_clear();
 
-    output.write(&picture)?;
-    Ok(report(arguments, triangles.len(), build_time, render_time, &counts))
+    let place = arguments.crop.clone().map(|crop| {
+        let &Arguments { size, depth, triangle, mode, .. } = arguments;
+        let (version, scene) = (env!("CARGO_PKG_VERSION"), digest(&scene));
+        let rendering = format!(
+            "isect {version}, scene {scene:016x}, --antialias {method}, depth {depth}, {triangle:?}, {mode:?}"
+        );
+        Place { crop, size, rendering }
+    });
+    output.write(|file| picture.encode(file, place.as_ref()))?;
+    let beams = beams.map(|beams| beams.count());
+    Ok(report(arguments, triangles.len(), beams, build_time, render_time, &counts))
 }
 
 /// The chosen accelerator with the chosen kernel compiled into it.
@@ -295,6 +415,7 @@ fn accelerator(
 fn report(
     arguments: &Arguments,
     triangles: usize,
+    beams: Option<usize>,
     build_time: Duration,
     render_time: Duration,
     counts: &RayCounts,
@@ -304,6 +425,9 @@ fn report(
         writeln!(table, "{name:<18}{value:>14}").expect("a string takes any text");
     };
     row("triangles", triangles.to_string());
+    if let Some(beams) = beams {
+        row("beams", beams.to_string());
+    }
     row("build", format!("{:.3} s", build_time.as_secs_f64()));
     row("render", format!("{:.3} s", render_time.as_secs_f64()));
     let kinds = [

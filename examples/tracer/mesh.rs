@@ -154,6 +154,14 @@ impl Mesh {
         mesh
     }
 
+    /// One of these triangles, which share no vertex.
+    #[cfg(test)]
+    pub(crate) fn of(triangles: &[Triangle<Vec3A>]) -> Self {
+        let positions = triangles.iter().flat_map(|&triangle| <[Vec3A; 3]>::from(triangle));
+        let indices = (0..).step_by(3).map(|i| [i, i + 1, i + 2]).take(triangles.len());
+        Self::new(positions.collect(), indices.collect())
+    }
+
     /// The triangles, in order.
     pub(crate) fn triangles(&self) -> Vec<Triangle<Vec3A>> {
         let triangle = |corners| self.triangle_of(corners);

@@ -1,14 +1,10 @@
-//! The picture file: whole, or not there.
+//! A file of results: whole, or not there.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
-
 use crate::failure::Failure;
-use crate::render::Picture;
 
 /// A file that can be written, as far as one can tell beforehand.
 #[derive(Debug)]
@@ -41,22 +37,18 @@ impl Output {
         Ok(output)
     }
 
-    /// Writes the picture beside the file, then puts it in its place.
-    pub(crate) fn write(&self, picture: &Picture) -> Result<(), Failure> {
-        self.try_write(picture).map_err(|error| Failure::new(&self.file, error))
+    /// Writes the contents beside the file, then puts them in its place.
+    pub(crate) fn write(
+        &self,
+        contents: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.try_write(contents).map_err(|error| Failure::new(&self.file, error))
     }
 
-    fn try_write(&self, picture: &Picture) -> io::Result<()> {
+    fn try_write(&self, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         let temporary = Temporary::create(&self.target)?;
         let mut writer = BufWriter::new(&temporary.file);
-        PngEncoder::new(&mut writer)
-            .write_image(
-                picture.pixels.as_flattened(),
-                picture.width,
-                picture.height,
-                ExtendedColorType::Rgb8,
-            )
-            .map_err(io::Error::other)?;
+        contents(&mut writer)?;
         writer.flush()?;
         drop(writer);
         temporary.file.sync_all()?;
@@ -92,18 +84,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_but_the_picture_is_left_behind() {
+    fn nothing_but_the_file_is_left_behind() {
         let folder = std::env::temp_dir().join(format!("isect-output-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         let file = folder.join("picture.png");
         let output = Output::new(&file).unwrap();
         assert!(!file.exists());
-        let picture = Picture { width: 2, height: 1, pixels: vec![[0, 128, 255], [1, 2, 3]] };
-        output.write(&picture).unwrap();
+        output.write(|file| file.write_all(b"whole")).unwrap();
+        let failed = output.write(|file| {
+            file.write_all(b"half")?;
+            Err(io::Error::other("full"))
+        });
+        assert!(failed.is_err());
         let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().path()).collect();
         assert_eq!(names, [file.as_path()]);
-        let read = image::open(&file).unwrap().into_rgb8();
-        assert_eq!(read.as_raw(), picture.pixels.as_flattened());
+        assert_eq!(fs::read(&file).unwrap(), b"whole");
         fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -3,10 +3,12 @@
 use clap::ValueEnum;
 use isect::glam::{Vec3, Vec3A};
 use isect::ray::plane::PlaneHit;
-use isect::{Aabb, Plane, Ray, Sphere};
+use isect::{Aabb, Plane, Polygon, Ray, Sphere};
 
 use crate::camera::View;
+use crate::fog::Fog;
 use crate::mesh::{Mesh, Obj};
+use crate::paint::Paint;
 
 /// Linear red, green and blue.
 pub(crate) type Color = Vec3;
@@ -17,6 +19,7 @@ pub(crate) enum Shape {
     Sphere(Sphere<Vec3A>),
     Box(Aabb<Vec3A>),
     Plane(Plane<Vec3A>),
+    Polygon(Polygon<Vec3A, 4>),
 }
 
 /// Where a ray meets a [`Shape`].
@@ -67,6 +70,15 @@ impl Shape {
                     leaving: plane.normal.dot(ray.direction) > 0.0,
                 })
             }
+            Self::Polygon(polygon) => {
+                let hit = ray.intersect(polygon)?;
+                Some(ShapeHit {
+                    t: hit.t,
+                    point_and_error: hit.point_and_error(polygon),
+                    normal: polygon.normal(),
+                    leaving: !hit.front,
+                })
+            }
         }
     }
 
@@ -76,6 +88,7 @@ impl Shape {
             Self::Sphere(sphere) => ray.hits(sphere),
             Self::Box(aabb) => ray.intersect(aabb).is_some_and(|hit| hit.surface().is_some()),
             Self::Plane(plane) => matches!(ray.intersect(plane), Some(PlaneHit::At(_))),
+            Self::Polygon(polygon) => ray.hits(polygon),
         }
     }
 
@@ -85,6 +98,7 @@ impl Shape {
             Self::Sphere(sphere) => sphere.aabb(),
             Self::Box(aabb) => *aabb,
             Self::Plane(_) => return 0.0,
+            Self::Polygon(polygon) => polygon.aabb(),
         };
         extent(&bounds)
     }
@@ -96,30 +110,6 @@ fn extent(aabb: &Aabb<Vec3A>) -> f32 {
         return 0.0;
     }
     aabb.min.abs().max(aabb.max.abs()).max_element()
-}
-
-/// How the colour varies over a surface.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Paint {
-    Plain(Color),
-    /// Squares of edge 1 on the horizontal plane, which fade into each other with the distance from
-    /// the origin, before they are smaller than pixels.
-    Checkers([Color; 2]),
-}
-
-impl Paint {
-    /// The colour at a point.
-    pub(crate) fn at(&self, point: Vec3A) -> Color {
-        match *self {
-            Self::Plain(color) => color,
-            Self::Checkers([even, odd]) => {
-                let is_odd = (point.x.floor() + point.z.floor()).rem_euclid(2.0) >= 1.0;
-                let distance = point.x.hypot(point.z) / 14.0;
-                let contrast = 0.5 / (1.0 + distance * distance);
-                even.lerp(odd, if is_odd { 0.5 + contrast } else { 0.5 - contrast })
-            }
-        }
-    }
 }
 
 /// The refractive indices on both sides of a surface.
@@ -139,16 +129,35 @@ pub(crate) struct Material {
     pub(crate) specular: f32,
     /// n, their sharpness.
     pub(crate) shininess: f32,
-    /// `k_m`, the share of the mirrored light for a surface seen from straight above.
+    /// The share of the mirrored light for a surface seen from straight above; Schlick's equation has the rest.
     pub(crate) mirror: f32,
     /// What a transparent surface lies between; Fresnel's equations share out the light.
     pub(crate) transparent: Option<Interface>,
+    /// Whitted's constants in the place of both equations.
+    pub(crate) shares: Option<Shares>,
+}
+
+/// What a surface does with light whatever its angle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shares {
+    /// `k_m`, of the mirrored light.
+    pub(crate) reflected: f32,
+    /// `k_t`, of the refracted light, for a transparent surface.
+    pub(crate) transmitted: f32,
 }
 
 impl Material {
     /// Paint with a soft sheen.
     const fn painted(paint: Paint) -> Self {
-        Self { paint, diffuse: 1.0, specular: 0.2, shininess: 30.0, mirror: 0.0, transparent: None }
+        Self {
+            paint,
+            diffuse: 1.0,
+            specular: 0.2,
+            shininess: 30.0,
+            mirror: 0.0,
+            transparent: None,
+            shares: None,
+        }
     }
 
     /// Polished metal.
@@ -160,6 +169,7 @@ impl Material {
             shininess: 300.0,
             mirror: 0.9,
             transparent: None,
+            shares: None,
         }
     }
 
@@ -172,10 +182,16 @@ impl Material {
             shininess: 300.0,
             mirror: 0.0,
             transparent: Some(Interface { inside, outside }),
+            shares: None,
         }
     }
 
     const GLASS: Self = Self::transparent(1.5, 1.0);
+
+    /// Whether it mirrors light.
+    pub(crate) fn is_mirror(&self) -> bool {
+        self.mirror > 0.0 || self.shares.is_some_and(|shares| shares.reflected > 0.0)
+    }
 }
 
 /// A point light, `I_p`.
@@ -183,6 +199,44 @@ impl Material {
 pub(crate) struct Light {
     pub(crate) position: Vec3A,
     pub(crate) color: Color,
+    pub(crate) falloff: Falloff,
+}
+
+/// How a light weakens with the distance, f(d) = 1 / (c₀ + c₁·d + c₂·d²).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Falloff([f32; 3]);
+
+impl Falloff {
+    /// Not at all, as if it were very far away.
+    pub(crate) const NONE: Self = Self([1.0, 0.0, 0.0]);
+    /// f(d) = 1 / d², as of a small lamp.
+    pub(crate) const INVERSE_SQUARE: Self = Self([0.0, 0.0, 1.0]);
+
+    /// f(d); d > 0.
+    pub(crate) fn at(&self, distance: f32) -> f32 {
+        let [constant, linear, quadratic] = self.0;
+        1.0 / (constant + distance * (linear + distance * quadratic))
+    }
+}
+
+/// The light from all around.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sky {
+    /// What a ray sees of it, from the horizon up.
+    seen: [Color; 2],
+    /// What comes from it to a surface that looks down at the lit floor, and to one that looks up.
+    shed: [Color; 2],
+}
+
+impl Sky {
+    const DAY: Self = Self {
+        seen: [Color::new(0.72, 0.80, 0.88), Color::new(0.05, 0.16, 0.46)],
+        shed: [Color::new(0.11, 0.10, 0.09), Color::new(0.17, 0.21, 0.27)],
+    };
+    const NIGHT: Self = Self {
+        seen: [Color::new(0.012, 0.014, 0.024), Color::new(0.002, 0.003, 0.008)],
+        shed: [Color::new(0.008, 0.008, 0.008), Color::new(0.014, 0.016, 0.024)],
+    };
 }
 
 /// Everything that is rendered.
@@ -193,6 +247,8 @@ pub(crate) struct Scene {
     pub(crate) mesh_material: Material,
     pub(crate) shapes: Vec<(Shape, Material)>,
     pub(crate) lights: Vec<Light>,
+    pub(crate) sky: Sky,
+    pub(crate) fog: Fog,
 }
 
 /// The scenes to choose from.
@@ -204,12 +260,22 @@ pub(crate) enum SceneName {
     Mesh,
     /// After Whitted's picture: a hollow glass sphere before a mirror
     Spheres,
+    /// Spheres that mirror and let through constant shares of the light
+    Shares,
+    /// Marble, wood and a block of cubes
+    Textures,
+    /// Lamps in the night whose light weakens with the distance
+    Lamps,
+    /// What is hard to sample: a floor of small squares, thin posts, the mesh and a mirror
+    Edges,
+    /// A room of polygons with mirrors, also for beams
+    Polygons,
 }
 
 impl SceneName {
     /// Whether there is a place for a mesh in it.
     pub(crate) fn has_mesh(self) -> bool {
-        self != Self::Spheres
+        matches!(self, Self::Showcase | Self::Mesh | Self::Edges)
     }
 
     /// The scene, around `obj` where it has a mesh.
@@ -218,6 +284,11 @@ impl SceneName {
             Self::Showcase => showcase(obj),
             Self::Mesh => mesh(obj),
             Self::Spheres => spheres(),
+            Self::Shares => shares(),
+            Self::Textures => textures(),
+            Self::Lamps => lamps(),
+            Self::Edges => edges(obj),
+            Self::Polygons => polygons(),
         }
     }
 }
@@ -232,17 +303,20 @@ impl Scene {
     }
 
     /// What a ray sees that hits nothing.
-    #[expect(clippy::unused_self, reason = "a sky belongs to its scene")]
     pub(crate) fn sky(&self, direction: Vec3A) -> Color {
-        let height = direction.y.max(0.0).sqrt();
-        Color::new(0.72, 0.80, 0.88).lerp(Color::new(0.05, 0.16, 0.46), height)
+        let [horizon, zenith] = self.sky.seen;
+        horizon.lerp(zenith, direction.y.max(0.0).sqrt())
+    }
+
+    /// The colour of the sky where it meets the floor.
+    pub(crate) fn horizon(&self) -> Color {
+        self.sky.seen[0]
     }
 
     /// `I_a`: the light from all around at a surface that faces along `normal`, from the sky or back
     /// from the floor.
     pub(crate) fn ambient(&self, normal: Vec3A) -> Color {
-        let below = Color::new(0.11, 0.10, 0.09);
-        let above = Color::new(0.17, 0.21, 0.27);
+        let [below, above] = self.sky.shed;
         below.lerp(above, 0.5 + 0.5 * normal.y)
     }
 }
@@ -264,8 +338,16 @@ fn ball(x: f32, z: f32, radius: f32) -> Shape {
 /// to the horizon.
 fn lights() -> Vec<Light> {
     vec![
-        Light { position: Vec3A::new(-84.0, 120.0, 60.0), color: Color::new(0.86, 0.80, 0.69) },
-        Light { position: Vec3A::new(90.0, 70.0, 50.0), color: Color::new(0.10, 0.12, 0.16) },
+        Light {
+            position: Vec3A::new(-84.0, 120.0, 60.0),
+            color: Color::new(0.86, 0.80, 0.69),
+            falloff: Falloff::NONE,
+        },
+        Light {
+            position: Vec3A::new(90.0, 70.0, 50.0),
+            color: Color::new(0.10, 0.12, 0.16),
+            falloff: Falloff::NONE,
+        },
     ]
 }
 
@@ -292,6 +374,8 @@ fn showcase(obj: Obj) -> Scene {
             (ball(1.15, 1.75, 0.58), Material::GLASS),
         ],
         lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
     }
 }
 
@@ -313,6 +397,8 @@ fn mesh(obj: Obj) -> Scene {
         mesh_material: clay(),
         shapes: vec![floor()],
         lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
     }
 }
 
@@ -336,5 +422,208 @@ fn spheres() -> Scene {
             (ball(-2.2, -0.9, 0.7), Material::painted(red)),
         ],
         lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
+    }
+}
+
+fn shares() -> Scene {
+    let painted = Material::painted(Paint::Plain(Color::new(0.62, 0.08, 0.06)));
+    let mirror = |reflected| Material {
+        shares: Some(Shares { reflected, transmitted: 0.0 }),
+        diffuse: 1.0 - reflected,
+        ..painted
+    };
+    let glass = |reflected, transmitted| Material {
+        shares: Some(Shares { reflected, transmitted }),
+        ..Material::GLASS
+    };
+    let materials =
+        [mirror(0.0), mirror(0.3), mirror(0.8), glass(0.0, 0.4), glass(0.1, 0.9), Material::GLASS];
+    let balls = [-2.5_f32, -1.5, -0.5, 0.5, 1.5, 2.5].map(|x| ball(x, -0.1 * x * x, 0.46));
+    let mut shapes = vec![floor()];
+    shapes.extend(balls.into_iter().zip(materials));
+    Scene {
+        view: View {
+            from: Vec3A::new(0.0, 1.5, 8.0),
+            at: Vec3A::new(0.0, 0.45, 0.0),
+            field_of_view: 23.0,
+        },
+        mesh: Mesh::default(),
+        mesh_material: clay(),
+        shapes,
+        lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
+    }
+}
+
+fn textures() -> Scene {
+    let marble = Paint::Marble {
+        colors: [Color::new(0.80, 0.78, 0.74), Color::new(0.10, 0.13, 0.16)],
+        layers: 0.9,
+    };
+    let wood = Paint::Wood {
+        colors: [Color::new(0.56, 0.33, 0.14), Color::new(0.27, 0.12, 0.04)],
+        rings: 5.0,
+    };
+    let cubes = Paint::Cubes {
+        colors: [Color::new(0.72, 0.12, 0.08), Color::new(0.80, 0.76, 0.66)],
+        edge: 0.3,
+    };
+    let block = Aabb::new(Vec3A::new(-0.75, 0.0, -1.3), Vec3A::new(0.75, 1.9, 0.3));
+    let varnished = |paint| Material { mirror: 0.04, ..Material::painted(paint) };
+    Scene {
+        view: View {
+            from: Vec3A::new(1.1, 2.6, 8.0),
+            at: Vec3A::new(0.0, 0.85, 0.0),
+            field_of_view: 26.0,
+        },
+        mesh: Mesh::default(),
+        mesh_material: clay(),
+        shapes: vec![
+            floor(),
+            (ball(-1.9, 0.2, 1.0), varnished(marble)),
+            (Shape::Box(block), varnished(wood)),
+            (ball(1.8, 0.3, 0.9), Material::painted(cubes)),
+        ],
+        lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
+    }
+}
+
+fn lamps() -> Scene {
+    let white = Material::painted(Paint::Plain(Color::splat(0.75)));
+    let plane = Plane { normal: Vec3A::Y, offset: 0.0 };
+    let post = Aabb::new(Vec3A::new(-0.25, 0.0, -0.25), Vec3A::new(0.25, 1.6, 0.25));
+    let lamp =
+        |x, height, z, color, falloff| Light { position: Vec3A::new(x, height, z), color, falloff };
+    Scene {
+        view: View {
+            from: Vec3A::new(0.0, 4.2, 9.0),
+            at: Vec3A::new(0.0, 0.5, 0.0),
+            field_of_view: 30.0,
+        },
+        mesh: Mesh::default(),
+        mesh_material: clay(),
+        shapes: vec![
+            (Shape::Plane(plane), white),
+            (Shape::Box(post), white),
+            (ball(-2.6, -0.6, 0.6), white),
+            (ball(2.6, -0.6, 0.6), white),
+        ],
+        lights: vec![
+            lamp(-1.5, 1.2, 0.6, Color::new(1.3, 0.55, 0.18), Falloff::INVERSE_SQUARE),
+            lamp(1.5, 1.2, 0.6, Color::new(0.25, 0.6, 1.3), Falloff::INVERSE_SQUARE),
+            lamp(0.0, 2.4, -3.0, Color::new(0.5, 0.9, 0.4), Falloff([1.0, 0.7, 0.0])),
+        ],
+        sky: Sky::NIGHT,
+        fog: Fog::None,
+    }
+}
+
+fn edges(obj: Obj) -> Scene {
+    let ink = [Color::splat(0.85), Color::splat(0.04)];
+    let plane = Plane { normal: Vec3A::Y, offset: 0.0 };
+    let floor = Material::painted(Paint::Cubes { colors: ink, edge: 0.4 });
+    let post = Material::painted(Paint::Plain(Color::splat(0.03)));
+    let mut shapes = vec![
+        (Shape::Plane(plane), floor),
+        (ball(1.6, -0.6, 0.9), Material::mirror(Color::new(0.95, 0.96, 1.0))),
+    ];
+    // In a picture of 180 rows they are a quarter of a pixel to a whole one wide.
+    shapes.extend((0..12_u8).map(|index| {
+        let index = f32::from(index);
+        let foot = Vec3A::new(-2.9 + 0.4 * index, 0.0, -2.6);
+        let half = 0.003 + 0.001 * index;
+        let top = Vec3A::new(0.0, 2.7, 0.0);
+        let aabb =
+            Aabb::new(foot - Vec3A::new(half, 0.0, half), foot + top + Vec3A::new(half, 0.0, half));
+        (Shape::Box(aabb), post)
+    }));
+    Scene {
+        view: View {
+            from: Vec3A::new(0.1, 1.5, 7.0),
+            at: Vec3A::new(0.0, 1.05, 0.0),
+            field_of_view: 28.0,
+        },
+        mesh: obj.standing(1.9, Vec3A::new(-0.9, 0.0, 0.2)),
+        mesh_material: clay(),
+        shapes,
+        lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
+    }
+}
+
+/// A polygon of three or four corners.
+fn face(corners: &[[f32; 3]]) -> Shape {
+    let corners: Vec<_> = corners.iter().copied().map(Vec3A::from_array).collect();
+    Shape::Polygon(Polygon::new(&corners).expect("it has four corners at most"))
+}
+
+/// The walls and the top of a block that stands on the floor, turned by an angle.
+fn block([x, z]: [f32; 2], half: f32, height: f32, angle: f32) -> [Shape; 5] {
+    let corner = |quarter: u8| {
+        let (sin, cos) = (angle + f32::from(quarter) * std::f32::consts::FRAC_PI_2).sin_cos();
+        [x + half * cos, z + half * sin]
+    };
+    let at = |quarter: u8, y: f32| {
+        let [x, z] = corner(quarter % 4);
+        [x, y, z]
+    };
+    let wall = |quarter: u8| {
+        let next = quarter + 1;
+        face(&[at(quarter, 0.0), at(quarter, height), at(next, height), at(next, 0.0)])
+    };
+    [wall(0), wall(1), wall(2), wall(3), face(&[3, 2, 1, 0].map(|quarter| at(quarter, height)))]
+}
+
+/// A pyramid on four corners of a floor at a height.
+fn spire([x, z]: [f32; 2], half: f32, [foot, top]: [f32; 2]) -> [Shape; 4] {
+    let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+    let corners = corners.map(|[dx, dz]| [x + dx, foot, z + dz]);
+    [0, 1, 2, 3].map(|i: usize| face(&[corners[i], [x, top, z], corners[(i + 1) % 4]]))
+}
+
+fn polygons() -> Scene {
+    let plain = |r, g, b| Material::painted(Paint::Plain(Color::new(r, g, b)));
+    let checkers = Paint::Checkers([Color::new(0.74, 0.70, 0.64), Color::new(0.16, 0.17, 0.21)]);
+    let mirror = Material::mirror(Color::new(0.93, 0.95, 1.0));
+    // The room is open towards the eye and above: the sky is seen in the mirrors, too.
+    let mut shapes = vec![
+        (
+            face(&[[-4.0, 0.0, -3.0], [-4.0, 0.0, 5.0], [4.0, 0.0, 5.0], [4.0, 0.0, -3.0]]),
+            Material::painted(checkers),
+        ),
+        (
+            face(&[[-4.0, 0.0, -3.0], [4.0, 0.0, -3.0], [4.0, 3.2, -3.0], [-4.0, 3.2, -3.0]]),
+            plain(0.66, 0.62, 0.54),
+        ),
+        (
+            face(&[[-4.0, 0.0, 5.0], [-4.0, 0.0, -3.0], [-4.0, 3.2, -3.0], [-4.0, 3.2, 5.0]]),
+            plain(0.44, 0.16, 0.12),
+        ),
+        // One mirror hangs on the back wall, one leans in the room, and they see each other.
+        (face(&[[-1.6, 0.5, -2.9], [2.2, 0.5, -2.9], [2.2, 2.7, -2.9], [-1.6, 2.7, -2.9]]), mirror),
+        (face(&[[3.4, 0.0, 0.4], [2.6, 0.0, -2.2], [3.0, 2.4, -2.4], [3.8, 2.4, 0.2]]), mirror),
+    ];
+    shapes
+        .extend(block([-1.5, -0.2], 0.75, 1.1, 0.35).map(|shape| (shape, plain(0.10, 0.36, 0.40))));
+    shapes.extend(block([0.7, 0.6], 0.6, 0.5, 1.0).map(|shape| (shape, plain(0.72, 0.44, 0.16))));
+    shapes.extend(spire([0.7, 0.6], 0.3, [0.5, 1.3]).map(|shape| (shape, plain(0.62, 0.60, 0.20))));
+    Scene {
+        view: View {
+            from: Vec3A::new(-0.6, 2.1, 7.4),
+            at: Vec3A::new(0.1, 1.1, 0.0),
+            field_of_view: 32.0,
+        },
+        mesh: Mesh::default(),
+        mesh_material: clay(),
+        shapes,
+        lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! T. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23.6, 1980:
 //! `I = I_object + k_m·I_reflection + k_t·I_refraction`. B. T. Phong, "Illumination for Computer
-//! Generated Pictures", CACM 18.6, 1975: `I_object = I_a·k_a + Σ I_p·(k_d·(L·N) + k_s·(V·R)ⁿ)`.
+//! Generated Pictures", CACM 18.6, 1975: `I_object = I_a·k_a + Σ f(d)·I_p·(k_d·(L·N) + k_s·(V·R)ⁿ)`.
 //! A ray whose share of the pixel is too small to be seen is not followed: R. A. Hall, D. P.
 //! Greenberg, "A Testbed for Realistic Image Synthesis", IEEE CG&A 3.8, 1983.
 
@@ -13,8 +13,9 @@ use isect::Ray;
 use isect::glam::Vec3A;
 
 use crate::accelerator::{Accelerator, PACKET};
+use crate::beams::{Beams, Found};
 use crate::optics::{mirrored_share, reflect, refract};
-use crate::scene::{Color, Light, Paint, Scene};
+use crate::scene::{Color, Light, Scene};
 use crate::surface::{Surface, transmittance, transmittance_of_packet};
 
 /// Half of one of the 256 steps of a colour.
@@ -51,15 +52,19 @@ pub(crate) struct Tracer<'a> {
     accelerator: &'a dyn Accelerator,
     /// How many times a ray may be reflected or refracted.
     max_depth: u32,
+    /// Where it is looked up what rays from the eye see, if not by tracing them.
+    beams: Option<&'a Beams>,
 }
 
 /// A ray's place in the recursion.
 #[derive(Clone, Copy)]
-struct Branch {
+struct Branch<'a> {
     /// How many more times it may be reflected or refracted.
     depth: u32,
     /// Its share of the pixel.
     weight: f32,
+    /// The beam that it is one of, if that is known.
+    beams: Option<&'a Beams>,
 }
 
 /// A surface and how it is seen.
@@ -89,61 +94,115 @@ struct Shadow {
     to_light: Vec3A,
     /// The cosine of the angle between it and the normal.
     facing: f32,
+    /// How far it is.
+    distance: f32,
 }
 
 impl<'a> Tracer<'a> {
     /// Prepares to follow rays through `scene`.
     pub(crate) fn new(scene: &'a Scene, accelerator: &'a dyn Accelerator, max_depth: u32) -> Self {
-        Self { scene, accelerator, max_depth }
+        Self { scene, accelerator, max_depth, beams: None }
+    }
+
+    /// The same, but what the beams can tell is not traced.
+    pub(crate) fn with_beams(self, beams: Option<&'a Beams>) -> Self {
+        Self { beams, ..self }
+    }
+
+    /// What there is to see.
+    pub(crate) fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// The light that arrives along a ray from the eye.
+    pub(crate) fn color(&self, primary: &Ray<Vec3A>, counts: &mut RayCounts) -> Color {
+        counts.primary += 1;
+        self.radiance(primary, self.trunk(), counts)
     }
 
     /// The light that arrives along rays from the eye that go together. So do their shadow rays; reflected
     /// and refracted rays go their own ways.
     pub(crate) fn colors(&self, primary: &[Ray<Vec3A>], counts: &mut RayCounts) -> [Color; PACKET] {
+        if self.beams.is_some() {
+            // They are looked up one by one.
+            let mut rays = primary.iter();
+            return array::from_fn(|_| {
+                rays.next().map_or(Color::ZERO, |ray| self.color(ray, counts))
+            });
+        }
         counts.primary += primary.len() as u64;
         let surfaces = Surface::closest_of_packet(self.scene, self.accelerator, primary);
         let sights = array::from_fn(|lane| {
             surfaces[lane].map(|surface| Sight::new(surface, primary[lane].direction))
         });
         let local = self.local_of_packet(&sights, counts);
-        let branch = Branch { depth: self.max_depth, weight: 1.0 };
+        let branch = self.trunk();
         let mut colors = [Color::ZERO; PACKET];
         for (lane, ray) in primary.iter().enumerate() {
             colors[lane] = match &sights[lane] {
-                Some(sight) => self.completed(local[lane], sight, branch, counts),
-                None => self.scene.sky(ray.direction),
+                Some(sight) => self.completed(local[lane], sight, ray, branch, counts),
+                None => self.sky(ray),
             };
         }
         colors
     }
 
     /// The light that arrives along any ray.
-    fn radiance(&self, ray: &Ray<Vec3A>, branch: Branch, counts: &mut RayCounts) -> Color {
-        let Some(surface) = Surface::closest(self.scene, self.accelerator, ray) else {
-            return self.scene.sky(ray.direction);
+    fn radiance(&self, ray: &Ray<Vec3A>, branch: Branch<'a>, counts: &mut RayCounts) -> Color {
+        let (surface, beams) = self.seen(ray, branch.beams);
+        let Some(surface) = surface else {
+            return self.sky(ray);
         };
+        let branch = Branch { beams, ..branch };
         let sight = Sight::new(surface, ray.direction);
         let local = self.local(&sight, counts);
-        self.completed(local, &sight, branch, counts)
+        self.completed(local, &sight, ray, branch, counts)
     }
 
-    /// The local light, and what is reflected and refracted.
+    /// The start of the recursion.
+    fn trunk(&self) -> Branch<'a> {
+        Branch { depth: self.max_depth, weight: 1.0, beams: self.beams }
+    }
+
+    /// The surface that a ray meets first, and the beam that a mirror there makes of its own.
+    fn seen(
+        &self,
+        ray: &Ray<Vec3A>,
+        beams: Option<&'a Beams>,
+    ) -> (Option<Surface<'a>>, Option<&'a Beams>) {
+        match beams.and_then(|beams| beams.find(self.scene, ray)) {
+            Some(Found::Sky) => return (None, None),
+            Some(Found::Shape(shape, reflected)) => {
+                let (shape, material) = &self.scene.shapes[shape];
+                // Beside an edge, the ray may miss what the beam sees.
+                if let Some(hit) = shape.intersect(ray) {
+                    return (Some(Surface::of_shape(&hit, material)), reflected);
+                }
+            }
+            None => {}
+        }
+        (Surface::closest(self.scene, self.accelerator, ray), None)
+    }
+
+    /// What a ray sees that hits nothing.
+    fn sky(&self, ray: &Ray<Vec3A>) -> Color {
+        self.scene.fog.over(self.scene.sky(ray.direction), f32::INFINITY)
+    }
+
+    /// The local light, and what is reflected and refracted, through the fog.
     fn completed(
         &self,
         local: Color,
         &Sight { ref surface, direction, mirrored }: &Sight<'_>,
-        branch: Branch,
+        ray: &Ray<Vec3A>,
+        branch: Branch<'a>,
         counts: &mut RayCounts,
     ) -> Color {
         let material = surface.material;
         let mut color = local;
         if mirrored > 0.0 {
-            // Metal tints what it mirrors; a coat of varnish does not.
-            let tint = match material.paint {
-                Paint::Plain(tint) => tint,
-                Paint::Checkers(_) => Color::ONE,
-            };
-            color += tint * self.reflected(surface, direction, mirrored, branch, counts);
+            let mirrored = self.reflected(surface, direction, mirrored, branch, counts);
+            color += material.paint.tint() * mirrored;
         }
         if let Some(interface) = material.transparent {
             let eta = if surface.leaving {
@@ -152,15 +211,23 @@ impl<'a> Tracer<'a> {
                 interface.outside / interface.inside
             };
             let refraction = refract(direction, surface.normal, eta);
-            let reflectance = refraction.map_or(1.0, |refraction| refraction.reflectance);
-            color += self.reflected(surface, direction, reflectance, branch, counts);
-            if let (Some(refraction), Some(branch)) = (refraction, branch.next(1.0 - reflectance)) {
+            let [reflected, transmitted] = match (&refraction, material.shares) {
+                (Some(refraction), None) => [refraction.reflectance, 1.0 - refraction.reflectance],
+                (Some(_), Some(shares)) => [shares.reflected, shares.transmitted],
+                (None, None) => [1.0, 0.0],
+                (None, Some(shares)) => [shares.reflected + shares.transmitted, 0.0],
+            };
+            color += self.reflected(surface, direction, reflected, branch, counts);
+            if let (Some(refraction), Some(branch)) = (refraction, branch.next(transmitted)) {
                 counts.refraction += 1;
                 let ray = surface.spawn(refraction.direction);
-                color += (1.0 - reflectance) * self.radiance(&ray, branch, counts);
+                let branch = Branch { beams: None, ..branch };
+                color += transmitted * self.radiance(&ray, branch, counts);
             }
+        } else if let Some(shares) = material.shares {
+            color += self.reflected(surface, direction, shares.reflected, branch, counts);
         }
-        color
+        self.scene.fog.over(color, ray.origin.distance(surface.point))
     }
 
     /// `share` of the light that comes mirrored.
@@ -169,7 +236,7 @@ impl<'a> Tracer<'a> {
         surface: &Surface<'_>,
         direction: Vec3A,
         share: f32,
-        branch: Branch,
+        branch: Branch<'a>,
         counts: &mut RayCounts,
     ) -> Color {
         let Some(branch) = branch.next(share) else {
@@ -245,25 +312,146 @@ impl<'a> Local<'a> {
         let ray = Ray::segment(self.shadow_origin, light.position);
         let to_light = ray.direction.normalize();
         let facing = to_light.dot(self.surface.normal);
-        (facing > 0.0).then_some(Shadow { ray, to_light, facing })
+        let distance = ray.direction.length();
+        (facing > 0.0).then_some(Shadow { ray, to_light, facing, distance })
     }
 
     /// Adds the light of a lamp, of which the share `lit` arrives.
-    fn add(&mut self, light: &Light, &Shadow { to_light, facing, .. }: &Shadow, lit: f32) {
+    fn add(
+        &mut self,
+        light: &Light,
+        &Shadow { to_light, facing, distance, .. }: &Shadow,
+        lit: f32,
+    ) {
         if lit > 0.0 {
             let material = self.surface.material;
             let highlight = self.mirrored.dot(to_light).max(0.0).powf(material.shininess);
             let scattered = self.scattered * facing + material.specular * highlight;
-            self.color += light.color * lit * scattered;
+            self.color += light.color * (lit * light.falloff.at(distance)) * scattered;
         }
     }
 }
 
-impl Branch {
+impl Branch<'_> {
     /// A ray that carries `share` of this one's light, if it is to be followed.
     fn next(self, share: f32) -> Option<Self> {
         let weight = self.weight * share;
         let depth = self.depth.checked_sub(1)?;
-        (weight >= INVISIBLE).then_some(Self { depth, weight })
+        (weight >= INVISIBLE).then_some(Self { depth, weight, ..self })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use isect::Plane;
+
+    use super::*;
+    use crate::accelerator::NaiveLoop;
+    use crate::fog::Fog;
+    use crate::kernel::Exact;
+    use crate::mesh::Obj;
+    use crate::scene::{Falloff, Interface, Material, SceneName, Shape, Shares};
+
+    /// Looks down at the plane y = 0 from (0, 1, 0), to meet it at (1, 0, 0).
+    const DOWN: Ray<Vec3A> = Ray {
+        origin: Vec3A::Y,
+        direction: Vec3A::new(
+            std::f32::consts::FRAC_1_SQRT_2,
+            -std::f32::consts::FRAC_1_SQRT_2,
+            0.0,
+        ),
+        t_min: 0.0,
+        t_max: f32::INFINITY,
+    };
+
+    /// Nothing but a plane of a material, without lamps.
+    fn plane(change: impl FnOnce(&mut Material)) -> Scene {
+        let mut scene = SceneName::Spheres.build(Obj::icosphere(0));
+        let mut material = scene.mesh_material;
+        change(&mut material);
+        scene.shapes = vec![(Shape::Plane(Plane { normal: Vec3A::Y, offset: 0.0 }), material)];
+        scene.lights.clear();
+        scene
+    }
+
+    /// What a ray sees, and what the rays of a packet do.
+    fn seen(scene: &Scene, ray: Ray<Vec3A>) -> Color {
+        let accelerator = NaiveLoop::<Exact>::new(&[]);
+        let tracer = Tracer::new(scene, &accelerator, 4);
+        let mut counts = RayCounts::default();
+        let color = tracer.color(&ray, &mut counts);
+        assert_eq!(tracer.colors(&[ray; 3], &mut counts)[..3], [color; 3]);
+        color
+    }
+
+    /// Some dozen operations on numbers up to 1, each off by half an ulp at most.
+    fn assert_close(a: Color, b: Color) {
+        assert!((a - b).abs().max_element() < 16.0 * f32::EPSILON, "{a} {b}");
+    }
+
+    #[test]
+    fn stated_shares_of_the_light_are_reflected_and_transmitted() {
+        for (reflected, transmitted) in [(0.25, 0.0), (0.0, 0.5), (0.3, 0.6), (1.0, 1.0)] {
+            let scene = plane(|material| {
+                material.diffuse = 0.0;
+                material.transparent = Some(Interface { inside: 1.0, outside: 1.0 });
+                material.shares = Some(Shares { reflected, transmitted });
+            });
+            let up = Vec3A::new(DOWN.direction.x, -DOWN.direction.y, 0.0);
+            let expected = reflected * scene.sky(up) + transmitted * scene.sky(DOWN.direction);
+            assert_close(seen(&scene, DOWN), expected);
+        }
+    }
+
+    #[test]
+    fn where_nothing_passes_both_shares_are_reflected() {
+        let scene = plane(|material| {
+            material.diffuse = 0.0;
+            // From glass into air at 45°, beyond the critical angle.
+            material.transparent = Some(Interface { inside: 1.0, outside: 1.5 });
+            material.shares = Some(Shares { reflected: 0.25, transmitted: 0.5 });
+        });
+        let up = Vec3A::new(DOWN.direction.x, -DOWN.direction.y, 0.0);
+        assert_close(seen(&scene, DOWN), 0.75 * scene.sky(up));
+    }
+
+    #[test]
+    fn an_opaque_surface_keeps_its_own_light_beside_the_mirrored() {
+        let matt = plane(|_| ());
+        let varnished =
+            plane(|material| material.shares = Some(Shares { reflected: 0.5, transmitted: 0.0 }));
+        let up = Vec3A::new(DOWN.direction.x, -DOWN.direction.y, 0.0);
+        let expected = seen(&matt, DOWN) + 0.5 * matt.sky(up);
+        assert_close(seen(&varnished, DOWN), expected);
+    }
+
+    #[test]
+    fn a_mirrored_ray_passes_through_fog_too() {
+        let mut scene = plane(|material| {
+            material.diffuse = 0.0;
+            material.shares = Some(Shares { reflected: 0.5, transmitted: 0.0 });
+        });
+        let color = Color::new(0.9, 0.5, 0.1);
+        // The first ray is √2 long, half of the way through the fog; the mirrored one has no end.
+        let end = 2.0 * std::f32::consts::SQRT_2;
+        scene.fog = Fog::Linear { range: [0.0, end], color };
+        assert_close(seen(&scene, DOWN), 0.5 * (0.5 * color) + 0.5 * color);
+        assert_eq!(seen(&scene, Ray::new(Vec3A::Y, Vec3A::Y)), color);
+    }
+
+    #[test]
+    fn lamps_weaken_as_their_falloff_says() {
+        let lit_from = |height: f32, falloff| {
+            let mut scene = plane(|material| material.specular = 0.0);
+            let dark = seen(&scene, DOWN);
+            let position = Vec3A::new(1.0, height, 0.0);
+            scene.lights.push(Light { position, color: Color::ONE, falloff });
+            seen(&scene, DOWN) - dark
+        };
+        let near = lit_from(2.0, Falloff::NONE);
+        assert!(near.min_element() > 0.1);
+        assert_close(lit_from(8.0, Falloff::NONE), near);
+        assert_close(lit_from(2.0, Falloff::INVERSE_SQUARE), near / 4.0);
+        assert_close(lit_from(8.0, Falloff::INVERSE_SQUARE), near / 64.0);
     }
 }

@@ -90,7 +90,7 @@ impl<'a> Surface<'a> {
         Some(Self::of_shape(&hit, material))
     }
 
-    fn of_shape(hit: &ShapeHit, material: &'a Material) -> Self {
+    pub(crate) fn of_shape(hit: &ShapeHit, material: &'a Material) -> Self {
         let (point, error) = hit.point_and_error;
         let geometric_normal = if hit.leaving { -hit.normal } else { hit.normal };
         Self {
@@ -186,7 +186,7 @@ fn through_shapes(scene: &Scene, shadow: &Ray<Vec3A>) -> f32 {
             if material.transparent.is_none() {
                 return 0.0;
             }
-            share *= THROUGH_TRANSPARENT;
+            share *= material.shares.map_or(THROUGH_TRANSPARENT, |shares| shares.transmitted);
         }
     }
     share
