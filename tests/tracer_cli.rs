@@ -117,7 +117,7 @@ fn a_bad_mesh_is_named_with_the_reason() {
 #[test]
 fn bad_options_are_named_with_the_reason() {
     let folder = Folder::new("options");
-    let cases: [(&[&str], &str); 52] = [
+    let cases: [(&[&str], &str); 59] = [
         (&["--size", "0x9"], "at least one pixel"),
         (&["--size", "100000x100000"], "more than 67108864 pixels"),
         (&["--size", "wide"], "not of the form 960x540"),
@@ -157,11 +157,21 @@ fn bad_options_are_named_with_the_reason() {
         (&["--antialias", "pyramid", "--samples", "4"], "'--samples' has no place"),
         (&["--antialias", "pyramid", "--max-level", "7"], "not in 0..=6"),
         (&["--antialias", "pyramid", "--packets"], "'--antialias pyramid' has no packets"),
+        (&["--antialias", "cone", "--max-level", "2"], "'--max-level' has no place"),
+        (&["--antialias", "cone", "--packets"], "'--antialias cone' has no packets"),
+        (&["--antialias", "cone", "--lamp-radius", "-1"], "'--lamp-radius"),
+        (&["--antialias", "cone", "--lamp-radius", "inf"], "not a number from 0 up"),
+        (&["--lamp-radius", "1"], "'--lamp-radius' has no place with '--antialias uniform'"),
+        (&["--compare", "a.svg", "--lamp-radius", "1"], "'--lamp-radius' has no place"),
         (&["--max-level", "2"], "'--max-level' has no place with '--antialias uniform'"),
         (&["--antialias", "stochastic", "--seed", "one"], "'--seed"),
         (&["--seed", "1"], "'--seed' has no place with '--antialias uniform'"),
         (&["--mode", "beam"], "'--mode beam' is for '--scene polygons' only"),
         (&["--scene", "polygons", "--mode", "beam", "--packets"], "'--packets' has no place"),
+        (
+            &["--scene", "polygons", "--mode", "beam", "--antialias", "cone"],
+            "'--antialias cone' has no place with '--mode beam'",
+        ),
         (&["--mode", "waves"], "'--mode"),
         (&["--depth", "65"], "not in 0..=64"),
         (&["--threads", "2000"], "not in 0..=1024"),
@@ -244,19 +254,22 @@ fn no_method_depends_on_threads() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         fs::read(folder.0.join("tracer.png")).unwrap()
     };
-    let methods: [&[&str]; 6] = [
+    let methods: [&[&str]; 9] = [
         &["none"],
         &["uniform"],
         &["adaptive", "--max-level", "1"],
         &["adaptive", "--max-level", "2"],
         &["stochastic"],
         &["stochastic", "--seed", "1"],
+        &["pyramid", "--max-level", "1"],
+        &["cone"],
+        &["cone", "--lamp-radius", "20"],
     ];
     let pictures = methods.map(|method| picture(method, &["--threads", "1"]));
     for (index, method) in methods.into_iter().enumerate() {
         assert_eq!(pictures[index], picture(method, &["--threads", "2"]), "{method:?}");
         assert!(!pictures[..index].contains(&pictures[index]), "{method:?} has no effect");
-        if method[0] != "adaptive" {
+        if matches!(method[0], "none" | "uniform" | "stochastic") {
             assert_eq!(pictures[index], picture(method, &["--packets"]), "{method:?}");
         }
     }
@@ -314,7 +327,7 @@ impl Folder {
 #[test]
 fn parts_make_the_same_file_as_the_whole() {
     let folder = Folder::new("parts");
-    for method in ["none", "uniform", "adaptive", "stochastic"] {
+    for method in ["none", "uniform", "adaptive", "stochastic", "pyramid", "cone"] {
         let run = |arguments: &[&str]| {
             let scene = ["--scene", "edges", "--mesh", "icosphere:1"];
             let common = [&scene[..], &["--size", "40x34", "--antialias", method]].concat();
@@ -416,7 +429,7 @@ fn the_comparison_makes_a_table_and_a_plot() {
     let plot = String::from_utf8(fs::read(folder.0.join("plot.svg")).unwrap()).unwrap();
     assert_eq!(folder.names(), ["plot.svg"]);
     assert!(plot.starts_with("<svg") && plot.trim_end().ends_with("</svg>"));
-    for method in ["none", "uniform", "adaptive", "stochastic"] {
+    for method in ["none", "uniform", "adaptive", "stochastic", "pyramid", "cone"] {
         let rows: Vec<_> = table.lines().filter(|line| line.starts_with(method)).collect();
         assert!(rows.len() >= 2, "{table}");
         for row in rows {

@@ -210,7 +210,6 @@ mod tests {
     use crate::accelerator::NaiveLoop;
     use crate::kernel::Exact;
     use crate::mesh::Obj;
-    use crate::optics::reflect;
     use crate::scene::{Material, SceneName};
     use crate::shade::{RayCounts, Tracer};
     use crate::surface::Surface;
@@ -229,7 +228,7 @@ mod tests {
             if !surface.material.is_mirror() || sights.len() > DEPTH as usize {
                 break;
             }
-            ray = surface.spawn(reflect(ray.direction, surface.normal));
+            ray = surface.spawn(ray.direction.reflect(surface.normal));
         }
         sights
     }

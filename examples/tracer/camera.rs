@@ -1,7 +1,7 @@
 //! The pinhole camera: a ray from the eye through each pixel's centre.
 
 use isect::glam::Vec3A;
-use isect::{Pyramid, Ray};
+use isect::{Cone, Pyramid, Ray};
 
 /// Where to look from, at what, and how wide.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +61,16 @@ impl Camera {
     pub(crate) fn pyramid(&self, [x0, y0]: [f32; 2], [x1, y1]: [f32; 2]) -> Option<Pyramid<Vec3A>> {
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
         Pyramid::new(self.eye, corners.map(|(x, y)| self.direction(x, y)))
+    }
+
+    /// The cone around the ray through a pixel's centre that is as wide as the pixel, by its area.
+    pub(crate) fn cone(&self, pixel: [u32; 2]) -> Cone<Vec3A> {
+        let [x, y] = pixel.map(|x| x as f32 + 0.5);
+        let ray = self.ray(x, y);
+        // The pixel lies ahead by 1, and is seen under an angle.
+        let area = 4.0 * self.right.length() * self.up.length() / (self.width * self.height);
+        let cosine = self.forward.dot(ray.direction);
+        Cone::new(ray, 0.0, (area * cosine.powi(3) / std::f32::consts::PI).sqrt())
     }
 
     /// Where all rays start.

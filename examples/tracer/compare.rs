@@ -131,7 +131,7 @@ impl Comparison {
             }
             chart
                 .configure_series_labels()
-                .position(SeriesLabelPosition::UpperRight)
+                .position(SeriesLabelPosition::LowerLeft)
                 .background_style(WHITE)
                 .border_style(BLACK.mix(0.3))
                 .draw()?;

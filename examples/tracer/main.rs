@@ -70,6 +70,7 @@ Examples:
   tracer --packets
   tracer --size 96x54 --samples 1 --accel none --triangle moller-trumbore
   tracer --antialias stochastic --samples 16 --fog exponential
+  tracer --antialias cone --lamp-radius 15
   tracer --compare plot.svg
   tracer --scene mesh --mesh icosphere:8 --bench
   parallel tracer --crop 0,{1},960,{2} --output part{1}.png ::: 0 135 270 405 :::+ 135 270 405 540
@@ -197,6 +198,9 @@ impl Arguments {
             crop.check(self.size).map_err(|reason| format!("'--crop {crop}': {reason}"))?;
         }
         let method = self.antialias.method()?;
+        if self.mode == Mode::Beam && matches!(method, Method::Cone { .. }) {
+            return Err("'--antialias cone' has no place with '--mode beam'".into());
+        }
         if self.packets && !method.has_packets() {
             return Err(format!("'--antialias {}' has no packets", method.name()));
         }

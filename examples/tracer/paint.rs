@@ -1,12 +1,12 @@
 //! How the colour varies over a surface, or through the block that it is cut from: a function of the point.
 //!
-//! Marble and wood are those of K. Perlin, "An Image Synthesizer", SIGGRAPH 1985, with the noise of his "Improving
-//! Noise", SIGGRAPH 2002.
+//! Marble and wood are those of K. Perlin, "An Image Synthesizer", SIGGRAPH 1985.
 
-use std::array;
 use std::f32::consts::TAU;
+use std::sync::LazyLock;
 
-use isect::glam::{FloatExt, Vec3A};
+use isect::glam::Vec3A;
+use noise::{NoiseFn, Perlin};
 
 use crate::scene::Color;
 
@@ -63,6 +63,22 @@ impl Paint {
         }
     }
 
+    /// The mean of the colours over an ellipse around a point, given its axes.
+    pub(crate) fn over(&self, center: Vec3A, [across, along]: [Vec3A; 2]) -> Color {
+        const POINTS: u8 = 32;
+        if let Self::Plain(color) = *self {
+            return color;
+        }
+        // H. Vogel's spiral of 1979, which spreads points evenly over a disk.
+        let turn = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+        let points = (0..POINTS).map(|i| {
+            let (sine, cosine) = (f32::from(i) * turn).sin_cos();
+            let radius = ((f32::from(i) + 0.5) / f32::from(POINTS)).sqrt();
+            center + (across * cosine + along * sine) * radius
+        });
+        points.map(|point| self.at(point)).sum::<Color>() / f32::from(POINTS)
+    }
+
     /// The colour that it gives to mirrored light: metal tints it, a coat of varnish does not.
     pub(crate) fn tint(&self) -> Color {
         match *self {
@@ -72,35 +88,11 @@ impl Paint {
     }
 }
 
-/// Gradient noise: smooth, about −1 to 1, zero on the integer lattice.
+/// Gradient noise: smooth, from −1 to 1, zero on the integer lattice.
+#[expect(clippy::cast_possible_truncation, reason = "it has no more digits than its point")]
 fn noise(point: Vec3A) -> f32 {
-    let cell = point.floor();
-    let within = point - cell;
-    let weight = within * within * within * (within * (within * 6.0 - 15.0) + 10.0);
-    let corners: [f32; 8] = array::from_fn(|corner| {
-        let corner =
-            Vec3A::from([0, 1, 2].map(|axis| if corner >> axis & 1 == 1 { 1.0 } else { 0.0 }));
-        slope(cell + corner).dot(within - corner)
-    });
-    let edges: [f32; 4] = array::from_fn(|i| corners[2 * i].lerp(corners[2 * i + 1], weight.x));
-    let faces: [f32; 2] = array::from_fn(|i| edges[2 * i].lerp(edges[2 * i + 1], weight.y));
-    faces[0].lerp(faces[1], weight.z)
-}
-
-/// The slope of the noise at a point of the lattice: towards an edge of a cube, by a hash.
-fn slope(lattice: Vec3A) -> Vec3A {
-    let hash = lattice.to_array().into_iter().fold(0x9e37_79b9, |hash: u32, x| {
-        // A multiplication carries upwards only, and what differs in whole numbers are the upper bits.
-        let mixed = (hash ^ x.to_bits().rotate_left(9)).wrapping_mul(0x85eb_ca6b);
-        (mixed ^ mixed >> 13).wrapping_mul(0xc2b2_ae35)
-    });
-    let hash = hash ^ hash >> 16;
-    let [a, b] = [1, 2].map(|bit| if hash & bit == 0 { -1.0 } else { 1.0 });
-    match (hash >> 2) % 3 {
-        0 => Vec3A::new(a, b, 0.0),
-        1 => Vec3A::new(0.0, a, b),
-        _ => Vec3A::new(b, 0.0, a),
-    }
+    static NOISE: LazyLock<Perlin> = LazyLock::new(|| Perlin::new(1));
+    NOISE.get(point.as_dvec3().to_array()) as f32
 }
 
 /// Noise of six scales, each half as wide and half as strong as the one before, and all of it upwards.
@@ -112,32 +104,6 @@ fn turbulence(point: Vec3A) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn noise_is_zero_on_the_lattice_and_continuous_across_it() {
-        let mut random = fastrand::Rng::with_seed(1);
-        let [mut least, mut greatest] = [0.0_f32; 2];
-        for _ in 0..20_000 {
-            let mut point = Vec3A::from([(); 3].map(|()| 40.0 * (random.f32() - 0.5)));
-            let value = noise(point);
-            [least, greatest] = [least.min(value), greatest.max(value)];
-            assert_eq!(noise(point.floor()), 0.0);
-            // Of two points that are 2⁻¹⁶ apart, on both sides of a face of the lattice; no slope exceeds 8.
-            point.x = point.x.floor();
-            let apart = Vec3A::X * 0.5_f32.powi(17);
-            assert!((noise(point - apart) - noise(point + apart)).abs() < 8.0 * 0.5_f32.powi(16));
-        }
-        assert!(least < -0.6 && greatest > 0.6 && least > -1.1 && greatest < 1.1);
-    }
-
-    #[test]
-    fn noise_has_no_favourite_sign() {
-        let mut random = fastrand::Rng::with_seed(2);
-        let mut point = || Vec3A::from([(); 3].map(|()| 2000.0 * (random.f32() - 0.5)));
-        let mean = (0..40_000).map(|_| noise(point())).sum::<f32>() / 40_000.0;
-        // The standard deviation of the noise is about 0.27, that of the mean a two-hundredth: five of them.
-        assert!(mean.abs() < 5.0 * 0.27 / 200.0, "{mean}");
-    }
 
     #[test]
     fn cubes_alternate_along_each_axis() {

@@ -119,6 +119,13 @@ pub(crate) struct Interface {
     pub(crate) outside: f32,
 }
 
+impl Interface {
+    /// η, the index on a ray's side over that on the other.
+    pub(crate) fn eta(&self, leaving: bool) -> f32 {
+        if leaving { self.inside / self.outside } else { self.outside / self.inside }
+    }
+}
+
 /// What a surface does with light: the constants of Phong (1975) and Whitted (1980).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Material {

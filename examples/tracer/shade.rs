@@ -6,6 +6,8 @@
 //! A ray whose share of the pixel is too small to be seen is not followed: R. A. Hall, D. P.
 //! Greenberg, "A Testbed for Realistic Image Synthesis", IEEE CG&A 3.8, 1983.
 
+mod cones;
+
 use std::array;
 use std::ops::AddAssign;
 
@@ -14,9 +16,11 @@ use isect::glam::Vec3A;
 
 use crate::accelerator::{Accelerator, PACKET};
 use crate::beams::{Beams, Found};
-use crate::optics::{mirrored_share, reflect, refract};
+use crate::optics::{Refraction, mirrored_share, refract};
 use crate::scene::{Color, Light, Scene};
 use crate::surface::{Surface, transmittance, transmittance_of_packet};
+
+pub(crate) use cones::Cones;
 
 /// Half of one of the 256 steps of a colour.
 const INVISIBLE: f32 = 1.0 / 512.0;
@@ -31,6 +35,10 @@ pub(crate) struct RayCounts {
 }
 
 impl RayCounts {
+    fn count_onward(&mut self, is_refracted: bool) {
+        *(if is_refracted { &mut self.refraction } else { &mut self.reflection }) += 1;
+    }
+
     /// All of them.
     pub(crate) fn total(&self) -> u64 {
         self.primary + self.shadow + self.reflection + self.refraction
@@ -72,8 +80,20 @@ struct Sight<'a> {
     surface: Surface<'a>,
     /// That of the ray which found it.
     direction: Vec3A,
-    /// The share of the light that comes mirrored.
+    /// The share of the light that comes mirrored, by Schlick's equation.
     mirrored: f32,
+    /// The paint's.
+    color: Color,
+}
+
+/// The light that reaches a surface from one direction, and goes on along the sight.
+struct Onward {
+    direction: Vec3A,
+    is_refracted: bool,
+    /// What of it goes on.
+    share: f32,
+    /// And in which colour.
+    tint: Color,
 }
 
 /// The light of the lamps and the sky that a surface itself scatters, `I_object`, lamp by lamp.
@@ -193,58 +213,22 @@ impl<'a> Tracer<'a> {
     fn completed(
         &self,
         local: Color,
-        &Sight { ref surface, direction, mirrored }: &Sight<'_>,
+        sight: &Sight<'_>,
         ray: &Ray<Vec3A>,
         branch: Branch<'a>,
         counts: &mut RayCounts,
     ) -> Color {
-        let material = surface.material;
         let mut color = local;
-        if mirrored > 0.0 {
-            let mirrored = self.reflected(surface, direction, mirrored, branch, counts);
-            color += material.paint.tint() * mirrored;
-        }
-        if let Some(interface) = material.transparent {
-            let eta = if surface.leaving {
-                interface.inside / interface.outside
-            } else {
-                interface.outside / interface.inside
-            };
-            let refraction = refract(direction, surface.normal, eta);
-            let [reflected, transmitted] = match (&refraction, material.shares) {
-                (Some(refraction), None) => [refraction.reflectance, 1.0 - refraction.reflectance],
-                (Some(_), Some(shares)) => [shares.reflected, shares.transmitted],
-                (None, None) => [1.0, 0.0],
-                (None, Some(shares)) => [shares.reflected + shares.transmitted, 0.0],
-            };
-            color += self.reflected(surface, direction, reflected, branch, counts);
-            if let (Some(refraction), Some(branch)) = (refraction, branch.next(transmitted)) {
-                counts.refraction += 1;
-                let ray = surface.spawn(refraction.direction);
-                let branch = Branch { beams: None, ..branch };
-                color += transmitted * self.radiance(&ray, branch, counts);
+        for Onward { direction, is_refracted, share, tint } in sight.onward() {
+            if let Some(branch) = branch.next(share) {
+                counts.count_onward(is_refracted);
+                // A mirror's beam has its image in it.
+                let beams = branch.beams.filter(|_| !is_refracted);
+                let ray = sight.surface.spawn(direction);
+                color += tint * (share * self.radiance(&ray, Branch { beams, ..branch }, counts));
             }
-        } else if let Some(shares) = material.shares {
-            color += self.reflected(surface, direction, shares.reflected, branch, counts);
         }
-        self.scene.fog.over(color, ray.origin.distance(surface.point))
-    }
-
-    /// `share` of the light that comes mirrored.
-    fn reflected(
-        &self,
-        surface: &Surface<'_>,
-        direction: Vec3A,
-        share: f32,
-        branch: Branch<'a>,
-        counts: &mut RayCounts,
-    ) -> Color {
-        let Some(branch) = branch.next(share) else {
-            return Color::ZERO;
-        };
-        counts.reflection += 1;
-        let ray = surface.spawn(reflect(direction, surface.normal));
-        share * self.radiance(&ray, branch, counts)
+        self.scene.fog.over(color, ray.origin.distance(sight.surface.point))
     }
 
     /// The light of the lamps and the sky that a surface itself scatters.
@@ -285,23 +269,64 @@ impl<'a> Tracer<'a> {
 }
 
 impl<'a> Sight<'a> {
+    /// Of the point itself.
     fn new(surface: Surface<'a>, direction: Vec3A) -> Self {
+        Self::of_color(surface, direction, surface.material.paint.at(surface.point))
+    }
+
+    /// With a colour that the paint has.
+    fn of_color(surface: Surface<'a>, direction: Vec3A, color: Color) -> Self {
         let mirror = surface.material.mirror;
         let mirrored =
             if mirror > 0.0 { mirrored_share(direction, surface.normal, mirror) } else { 0.0 };
-        Self { surface, direction, mirrored }
+        Self { surface, direction, mirrored, color }
+    }
+
+    /// Where the light comes from that is neither a lamp's nor scattered: `k_m` and `k_t`, or what stands in their place.
+    fn onward(&self) -> impl Iterator<Item = Onward> {
+        let Self { ref surface, direction, mirrored, .. } = *self;
+        let material = surface.material;
+        let reflected = |share, tint| Onward {
+            direction: direction.reflect(surface.normal),
+            is_refracted: false,
+            share,
+            tint,
+        };
+        let varnish = reflected(mirrored, material.paint.tint());
+        let [mirror, passage] = if let Some(interface) = material.transparent {
+            let eta = interface.eta(surface.leaving);
+            let refraction = refract(direction, surface.normal, eta);
+            let [reflected_share, share] = match (&refraction, material.shares) {
+                (Some(refraction), None) => [refraction.reflectance, 1.0 - refraction.reflectance],
+                (Some(_), Some(shares)) => [shares.reflected, shares.transmitted],
+                (None, None) => [1.0, 0.0],
+                (None, Some(shares)) => [shares.reflected + shares.transmitted, 0.0],
+            };
+            let passage = refraction.map(|Refraction { direction, .. }| Onward {
+                direction,
+                is_refracted: true,
+                share,
+                tint: Color::ONE,
+            });
+            [Some(reflected(reflected_share, Color::ONE)), passage]
+        } else {
+            [material.shares.map(|shares| reflected(shares.reflected, Color::ONE)), None]
+        };
+        [Some(varnish), mirror, passage].into_iter().flatten()
     }
 }
 
 impl<'a> Local<'a> {
     /// The light of the sky.
-    fn new(scene: &Scene, &Sight { ref surface, direction, mirrored }: &'a Sight<'a>) -> Self {
-        let material = surface.material;
-        let scattered = material.paint.at(surface.point) * (material.diffuse * (1.0 - mirrored));
+    fn new(
+        scene: &Scene,
+        &Sight { ref surface, direction, mirrored, color }: &'a Sight<'a>,
+    ) -> Self {
+        let scattered = color * (surface.material.diffuse * (1.0 - mirrored));
         Self {
             surface,
             scattered,
-            mirrored: reflect(direction, surface.normal),
+            mirrored: direction.reflect(surface.normal),
             shadow_origin: surface.shadow_origin(),
             color: scattered * scene.ambient(surface.normal),
         }

@@ -104,7 +104,11 @@ impl<'a> Surface<'a> {
         }
     }
 
-    fn of_mesh(scene: &'a Scene, ray: &Ray<Vec3A>, &MeshHit { triangle, hit }: &MeshHit) -> Self {
+    pub(crate) fn of_mesh(
+        scene: &'a Scene,
+        ray: &Ray<Vec3A>,
+        &MeshHit { triangle, hit }: &MeshHit,
+    ) -> Self {
         let corners = scene.mesh.triangle(triangle);
         let towards_ray = if hit.front { 1.0 } else { -1.0 };
         let geometric_normal = corners.normal() * towards_ray;
@@ -183,11 +187,20 @@ fn through_shapes(scene: &Scene, shadow: &Ray<Vec3A>) -> f32 {
     let mut share = 1.0;
     for (shape, material) in &scene.shapes {
         if shape.hits(shadow) {
-            if material.transparent.is_none() {
-                return 0.0;
+            share *= through_material(material);
+            if share == 0.0 {
+                break;
             }
-            share *= material.shares.map_or(THROUGH_TRANSPARENT, |shares| shares.transmitted);
         }
     }
     share
+}
+
+/// The share of a light that gets through a shape of a material.
+pub(crate) fn through_material(material: &Material) -> f32 {
+    match (material.transparent, material.shares) {
+        (None, _) => 0.0,
+        (Some(_), None) => THROUGH_TRANSPARENT,
+        (Some(_), Some(shares)) => shares.transmitted,
+    }
 }

@@ -5,10 +5,10 @@
 
 use glam::DVec3;
 
-use super::cone::{Axis, ConeHit, Outline, Section};
+use super::cone::{ConeHit, Outline, Section, is_far};
 use crate::exact::wide;
 use crate::shape::{Aabb, Cone, Ray};
-use crate::vector::{Number, Scalar, Vector};
+use crate::vector::{Scalar, Vector};
 
 /// The corners of the six faces, by [`Aabb::corners`], counter-clockwise from outside.
 const FACES: [[usize; 4]; 6] =
@@ -36,6 +36,9 @@ const FACES: [[usize; 4]; 6] =
 /// ```
 #[must_use]
 pub fn intersect<V: Vector>(cone: &Cone<V>, aabb: &Aabb<V>) -> Option<ConeHit<V::Scalar>> {
+    if is_far(cone, aabb) {
+        return None;
+    }
     let (section, corners) = in_frame(cone, aabb)?;
     let z = nearest(&section, cone, aabb, corners)?;
     let (mut turned, mut cut) = (0.0, 0.0);
@@ -70,23 +73,6 @@ pub fn touches<V: Vector>(cone: &Cone<V>, aabb: &Aabb<V>) -> bool {
         corners.iter().any(|&corner| section.holds(corner))
             || nearest(&section, cone, aabb, corners).is_some()
     })
-}
-
-/// Whether the ball around the box is clear of the cone, for certain: most boxes that are not touched.
-///
-/// The distance from the cone's side, a straight line in the plane of the axis and the centre, is at most that
-/// from the cone. What some tens of roundings do to it is far below the margin.
-#[inline]
-fn is_far<V: Vector>(cone: &Cone<V>, aabb: &Aabb<V>) -> bool {
-    let Axis { frame: [.., axis], length, slope } = Axis::new(cone);
-    let half = (wide(aabb.max) - wide(aabb.min)) * 0.5;
-    let center = wide(aabb.min) + half - wide(cone.ray.origin);
-    let (z, radius) = (center.dot(axis), cone.radius.into());
-    let away = (center - axis * z).length() - (radius + slope * z);
-    let margin = 1e-12 * ((1.0 + slope) * center.length() + radius);
-    let reach = half.length() * (1.0 + 1e-12) + margin;
-    let [near, far] = [cone.ray.t_min, cone.ray.t_max].map(|t| t.into() * length);
-    away > reach * Number::sqrt(1.0 + slope * slope) || z + reach < near || far < z - reach
 }
 
 /// The cone and the corners in its frame.

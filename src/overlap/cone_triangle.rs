@@ -4,7 +4,7 @@
 //! axis; here its outline is projected to the cone's section and the area common to both is computed, which
 //! Green's theorem gives edge by edge.
 
-use super::cone::{ConeHit, Outline, Section};
+use super::cone::{ConeHit, Outline, Section, is_far};
 use crate::shape::{Cone, Triangle};
 use crate::vector::{Scalar, Vector};
 
@@ -39,6 +39,9 @@ use crate::vector::{Scalar, Vector};
 /// ```
 #[must_use]
 pub fn intersect<V: Vector>(cone: &Cone<V>, triangle: &Triangle<V>) -> Option<ConeHit<V::Scalar>> {
+    if is_far(cone, &triangle.aabb()) {
+        return None;
+    }
     let (section, corners) = Section::new(cone, (*triangle).into(), V::Scalar::ZERO)?;
     let inflated = section.inflated();
     let z = inflated.nearest(&Outline::new(&inflated, corners))?;
@@ -60,9 +63,12 @@ pub fn intersect<V: Vector>(cone: &Cone<V>, triangle: &Triangle<V>) -> Option<Co
 /// ```
 #[must_use]
 pub fn touches<V: Vector>(cone: &Cone<V>, triangle: &Triangle<V>) -> bool {
-    let Some((section, corners)) = Section::new(cone, (*triangle).into(), V::Scalar::ZERO) else {
+    if is_far(cone, &triangle.aabb()) {
         return false;
-    };
-    let inflated = section.inflated();
-    inflated.nearest(&Outline::new(&inflated, corners)).is_some()
+    }
+    let in_frame = Section::new(cone, (*triangle).into(), V::Scalar::ZERO);
+    in_frame.is_some_and(|(section, corners)| {
+        let inflated = section.inflated();
+        inflated.nearest(&Outline::new(&inflated, corners)).is_some()
+    })
 }

@@ -4,6 +4,9 @@
 //! the tile, the threads or the part of the picture that is rendered: parts fit together to the bit.
 
 mod adaptive;
+#[cfg(test)]
+mod black;
+mod cone;
 mod none;
 mod pyramid;
 mod stochastic;
@@ -34,6 +37,8 @@ enum MethodName {
     Stochastic,
     /// Pyramids, which split in four where a primitive covers a part of them
     Pyramid,
+    /// A cone, of which each thing colours the share that it covers
+    Cone,
 }
 
 /// What the command line says of the method.
@@ -52,6 +57,9 @@ pub(crate) struct Options {
     /// What the random numbers follow from, stochastic [default: 0]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// The radius of all lamps, for soft shadows, cone [default: 0]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = parse_radius)]
+    lamp_radius: Option<f32>,
 }
 
 /// The cells along one edge of a pixel: their number is the square.
@@ -67,20 +75,29 @@ fn parse_samples(text: &str) -> Result<PerEdge, String> {
         .ok_or_else(|| "not a square number from 1 to 1024".into())
 }
 
+/// Reads a radius.
+fn parse_radius(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(radius) if (0.0..f32::INFINITY).contains(&radius) => Ok(radius),
+        _ => Err("not a number from 0 up".into()),
+    }
+}
+
 /// A method and its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Method {
     None,
     Uniform(PerEdge),
     Adaptive { max_level: u8 },
     Stochastic(PerEdge, u64),
     Pyramid { max_level: u8 },
+    Cone { lamp_radius: f32 },
 }
 
 impl Options {
     /// The method that is chosen, if the other options fit it.
     pub(crate) fn method(&self) -> Result<Method, String> {
-        let &Self { antialias, samples, max_level, seed } = self;
+        let &Self { antialias, samples, max_level, seed, lamp_radius } = self;
         let per_edge = samples.unwrap_or(PerEdge(2));
         let method = match antialias {
             MethodName::None => Method::None,
@@ -88,6 +105,7 @@ impl Options {
             MethodName::Adaptive => Method::Adaptive { max_level: max_level.unwrap_or(3) },
             MethodName::Stochastic => Method::Stochastic(per_edge, seed.unwrap_or(0)),
             MethodName::Pyramid => Method::Pyramid { max_level: max_level.unwrap_or(3) },
+            MethodName::Cone => Method::Cone { lamp_radius: lamp_radius.unwrap_or(0.0) },
         };
         let given = [
             (
@@ -101,6 +119,7 @@ impl Options {
                 matches!(method, Method::Adaptive { .. } | Method::Pyramid { .. }),
             ),
             (seed.is_some(), "seed", matches!(method, Method::Stochastic(..))),
+            (lamp_radius.is_some(), "lamp-radius", matches!(method, Method::Cone { .. })),
         ];
         match given.into_iter().find(|&(is_given, _, fits)| is_given && !fits) {
             Some((_, option, _)) => {
@@ -120,6 +139,7 @@ impl Method {
             Self::Adaptive { .. } => "adaptive",
             Self::Stochastic(..) => "stochastic",
             Self::Pyramid { .. } => "pyramid",
+            Self::Cone { .. } => "cone",
         }
     }
 
@@ -138,6 +158,7 @@ impl Method {
             (0..=5).map(|max_level| Self::Adaptive { max_level }).collect(),
             per_edge().map(|per_edge| Self::Stochastic(per_edge, 0)).collect(),
             (0..=5).map(|max_level| Self::Pyramid { max_level }).collect(),
+            vec![Self::Cone { lamp_radius: 0.0 }],
         ]
     }
 
@@ -148,7 +169,7 @@ impl Method {
 
     /// Whether it looks for all triangles that a solid touches, and needs a hierarchy for that.
     pub(crate) fn has_solids(self) -> bool {
-        matches!(self, Self::Pyramid { .. })
+        matches!(self, Self::Pyramid { .. } | Self::Cone { .. })
     }
 
     /// The colours of a tile's pixels, row by row.
@@ -161,6 +182,7 @@ impl Method {
                 stochastic::colors(per_edge, seed, eye, tile, counts)
             }
             Self::Pyramid { max_level } => pyramid::colors(max_level, eye, tile, counts),
+            Self::Cone { lamp_radius } => cone::colors(lamp_radius, eye, tile, counts),
         }
     }
 }
@@ -178,6 +200,7 @@ impl fmt::Display for Method {
             Self::Stochastic(per_edge, seed) => {
                 write!(f, " --samples {} --seed {seed}", per_edge.cells())
             }
+            Self::Cone { lamp_radius } => write!(f, " --lamp-radius {lamp_radius}"),
         }
     }
 }

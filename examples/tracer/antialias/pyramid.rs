@@ -177,65 +177,11 @@ impl Caster<'_> {
 
 #[cfg(test)]
 mod tests {
-    use isect::{Sphere, Triangle};
+    use isect::{Aabb, Sphere};
 
     use super::*;
     use crate::antialias::Method;
-    use crate::bvh2::Bvh2;
-    use crate::camera::{Camera, View};
-    use crate::kernel::Exact;
-    use crate::mesh::{Mesh, Obj};
-    use crate::scene::{Scene, SceneName};
-    use crate::shade::Tracer;
-
-    /// The picture's size.
-    const SIZE: u32 = 16;
-
-    /// Down at the sky below the horizon, which has one colour.
-    const VIEW: View = View {
-        from: Vec3A::new(0.5, 4.0, 1.0),
-        at: Vec3A::new(0.0, 0.0, 0.25),
-        field_of_view: 20.0,
-    };
-
-    /// A place in the picture, in pixels, so far ahead.
-    fn ahead([x, y]: [f32; 2], depth: f32) -> Vec3A {
-        let camera = Camera::new(&VIEW, SIZE, SIZE);
-        let ray = camera.ray(x, y);
-        ray.at(depth / camera.depth(ray.at(1.0)))
-    }
-
-    fn triangle(corners: [[f32; 2]; 3], depth: f32) -> Triangle<Vec3A> {
-        corners.map(|corner| ahead(corner, depth)).into()
-    }
-
-    /// Black triangles and shapes, and no lamp.
-    fn scene(triangles: &[Triangle<Vec3A>], shapes: &[Shape]) -> Scene {
-        let mut scene = SceneName::Spheres.build(Obj::icosphere(0));
-        scene.lights.clear();
-        scene.mesh = Mesh::of(triangles);
-        scene.mesh_material.diffuse = 0.0;
-        let material = scene.mesh_material;
-        scene.shapes = shapes.iter().map(|&shape| (shape, material)).collect();
-        scene
-    }
-
-    /// How black pixels are, and how many rays that took.
-    fn black(scene: &Scene, method: Method, tile: Tile) -> (Vec<f32>, u64) {
-        let triangles = scene.mesh.triangles();
-        let hierarchy = Bvh2::<Exact>::new(&triangles, 16.0);
-        let tracer = Tracer::new(scene, &hierarchy, 2);
-        let camera = Camera::new(&VIEW, SIZE, SIZE);
-        let eye = Eye { tracer: &tracer, camera: &camera, hierarchy: Some(&hierarchy) };
-        let mut counts = RayCounts::default();
-        let colors = method.colors(&eye, &tile, &mut counts);
-        let sky = scene.sky(Vec3A::NEG_Y);
-        (colors.into_iter().map(|color| 1.0 - color.x / sky.x).collect(), counts.primary)
-    }
-
-    fn pixel(x: u32, y: u32) -> Tile {
-        Tile { x: x..x + 1, y: y..y + 1 }
-    }
+    use crate::antialias::black::{SIZE, ahead, black, pixel, scene, triangle};
 
     const THREE_LEVELS: Method = Method::Pyramid { max_level: 3 };
 
