@@ -3,6 +3,8 @@
 //! A box is the common part of three slabs. A [`BoxRay`] holds what a ray can prepare once for all
 //! boxes; each kernel then cuts the ray's range with the three slabs' intervals.
 //!
+#![doc = include_str!("../../doc/slabs.svg")]
+//!
 //! | kernel | grade | for |
 //! |---|---|---|
 //! | [`exact`] | exact | everything; the default |

@@ -7,6 +7,11 @@
 //! | [`moller_trumbore`] | fast | leaves where a lost ray does not matter |
 //! | [`badouel`] | fast | many rays against few triangles, prepared once |
 //! | [`segura`] | fast | yes or no without a division |
+//!
+//! A hit is a t along the ray, and a u and v on the triangle: the weights of `v1` and `v2`, and also the shares of the area
+//! that lie across from them ([`TriangleHit`]).
+//!
+#![doc = include_str!("../../doc/barycentric.svg")]
 
 pub mod badouel;
 pub mod exact;

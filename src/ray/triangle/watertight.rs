@@ -4,6 +4,8 @@
 //! Graphics Techniques 2.1, 2013. Space is sheared so that the ray becomes an axis; then a vertex
 //! has the same two-dimensional coordinates for every triangle that it belongs to, and the side on
 //! which the ray passes an edge is decided exactly on them.
+//!
+#![doc = include_str!("../../doc/shear.svg")]
 
 use super::{Found, TriangleHit, in_range};
 use crate::exact::difference_of_products;
