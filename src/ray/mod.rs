@@ -98,6 +98,14 @@ impl<V: Vector> Ray<V> {
     }
 
     /// Whether `shape` has any hit in the ray's range, as a shadow ray asks.
+    ///
+    /// ```
+    /// use isect::{Aabb, Ray, glam::Vec3};
+    ///
+    /// let aabb = Aabb::new(Vec3::ZERO, Vec3::ONE);
+    /// let to_lamp = Ray::segment(Vec3::new(0.5, 0.5, -1.0), Vec3::new(0.5, 0.5, 9.0));
+    /// assert!(to_lamp.hits(&aabb) && !to_lamp.after(0.25).hits(&aabb));
+    /// ```
     #[inline]
     #[must_use]
     pub fn hits<S: Intersect<V> + ?Sized>(&self, shape: &S) -> bool {

@@ -9,6 +9,14 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 ///
 /// It may be flat on some axes. A box with `min > max` on any axis is empty: it contains nothing and
 /// is never hit. Infinite bounds make it unbounded on that side. A box with a NaN is never hit.
+///
+/// ```
+/// use isect::{Aabb, glam::Vec3};
+///
+/// let aabb = Aabb::from_points([Vec3::ZERO, Vec3::new(1.0, 2.0, 0.0)]);
+/// assert_eq!((aabb.size(), aabb.longest_axis()), (Vec3::new(1.0, 2.0, 0.0), 1));
+/// assert!(!aabb.is_empty() && Aabb::<Vec3>::EMPTY.is_empty());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Aabb<V: Coordinates = Vec3> {
@@ -129,14 +137,28 @@ impl<V: Vector> Aabb<V> {
         }
     }
 
-    /// Whether `point` lies in the box or on its surface.
+    /// Whether `point` lies in the box or on its surface. **Grade: exact.** Not for an empty box, or a NaN.
+    ///
+    /// ```
+    /// use isect::{Aabb, glam::Vec3};
+    ///
+    /// let aabb = Aabb::new(Vec3::ZERO, Vec3::ONE);
+    /// assert!(aabb.contains(Vec3::ONE) && !aabb.contains(Vec3::splat(1.0_f32.next_up())));
+    /// ```
     #[inline]
     #[must_use]
     pub fn contains(&self, point: V) -> bool {
         self.min.all_le(point) && point.all_le(self.max)
     }
 
-    /// Whether the boxes share a point; touching is enough. An empty box shares none.
+    /// Whether the boxes share a point; touching is enough. **Grade: exact.** An empty box shares none.
+    ///
+    /// ```
+    /// use isect::{Aabb, glam::Vec3};
+    ///
+    /// let from = |x: f32| Aabb::new(Vec3::splat(x), Vec3::splat(x + 1.0));
+    /// assert!(from(0.0).overlaps(&from(1.0)) && !from(0.0).overlaps(&from(1.5)));
+    /// ```
     #[inline]
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {

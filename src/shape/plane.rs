@@ -60,6 +60,13 @@ impl<V: Vector> Plane<V> {
 
     /// The distance of `point` from the plane, positive on the side to which the normal points.
     /// NaN for a plane that is not valid; infinite or NaN where products of the coordinates overflow.
+    ///
+    /// ```
+    /// use isect::{Plane, glam::Vec3};
+    ///
+    /// let plane = Plane::from_point_normal(Vec3::Z, Vec3::Z * 2.0).expect("a normal");
+    /// assert_eq!((plane.signed_distance(Vec3::Z * 4.0), plane.signed_distance(Vec3::X)), (3.0, -1.0));
+    /// ```
     #[inline]
     #[must_use]
     pub fn signed_distance(&self, point: V) -> V::Scalar {

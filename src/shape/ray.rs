@@ -50,6 +50,9 @@ impl<V: Vector> Ray<V> {
     }
 
     /// The same ray with t in the closed range [t_min, t_max].
+    ///
+    /// In a closure that captures a ray write this and not `Ray { t_max, ..ray }`, over which rustc 1.95 breaks down
+    /// ("broken MIR"): it captures the fields one by one, and does not see through their types.
     #[inline]
     #[must_use]
     pub const fn with_range(mut self, t_min: V::Scalar, t_max: V::Scalar) -> Self {

@@ -9,6 +9,13 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 ///
 /// A radius of zero is a point. A negative radius, or an infinite or NaN field, makes a sphere that
 /// is never hit.
+///
+/// ```
+/// use isect::{Sphere, glam::Vec3};
+///
+/// let sphere = Sphere::new(Vec3::Z, 2.0);
+/// assert_eq!((sphere.normal_at(Vec3::Z * 3.0), sphere.aabb().max), (Vec3::Z, Vec3::new(2.0, 2.0, 3.0)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Sphere<V: Coordinates = Vec3> {

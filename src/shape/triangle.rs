@@ -8,6 +8,14 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 /// The closed triangle of three vertices. Edge i joins vertex i to vertex i + 1 (modulo 3).
 ///
 /// A triangle with an infinite or NaN vertex is never hit.
+///
+/// ```
+/// use isect::{Triangle, glam::Vec3};
+///
+/// let triangle = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+/// assert_eq!((triangle.normal(), triangle.area()), (Vec3::Z, 0.5));
+/// assert_eq!(triangle.at(0.25, 0.5), Vec3::new(0.25, 0.5, 0.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 #[repr(C)]
 pub struct Triangle<V: Coordinates = Vec3> {

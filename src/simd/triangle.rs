@@ -268,6 +268,17 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
     ///
     /// **Grade: exact**, as far as hits go; of two hits whose t are closer to each other than their error bounds
     /// either may be called the closer one.
+    ///
+    /// ```
+    /// use isect::simd::{TrianglePack, fearless_simd::{Level, dispatch}};
+    /// use isect::{Ray, Triangle, glam::Vec3};
+    ///
+    /// let at = |z| Triangle::new(Vec3::Z * z, Vec3::X + Vec3::Z * z, Vec3::Y + Vec3::Z * z);
+    /// let leaf = TrianglePack::<f32, 4>::from_triangles(&[at(3.0), at(2.0)]);
+    /// let ray = Ray::new(Vec3::new(0.25, 0.25, 0.0), Vec3::Z);
+    /// let (lane, hit) = dispatch!(Level::new(), simd => leaf.closest(simd, &ray)).expect("two hits");
+    /// assert_eq!((lane, hit.t), (1, 2.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn closest<S: Simd, V: Vector<Scalar = T>>(
@@ -298,6 +309,16 @@ impl<T: Lanes<N>, const N: usize> TrianglePack<T, N> {
     /// Whether the ray hits any of the triangles, as a shadow ray asks: whether [`Self::exact`] has a hit.
     ///
     /// **Grade: exact**, as [`Self::exact`]. Where a hit is certain the later stages are not asked.
+    ///
+    /// ```
+    /// use isect::simd::{TrianglePack, fearless_simd::{Level, dispatch}};
+    /// use isect::{Ray, Triangle, glam::Vec3};
+    ///
+    /// let leaf = TrianglePack::<f32, 4>::from_triangles(&[Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y)]);
+    /// let shadow = Ray::segment(Vec3::new(0.25, 0.25, -1.0), Vec3::new(0.25, 0.25, 3.0));
+    /// let any = |ray| dispatch!(Level::new(), simd => leaf.any(simd, &ray));
+    /// assert!(any(shadow) && !any(shadow.after(0.25)));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn any<S: Simd, V: Vector<Scalar = T>>(&self, simd: S, ray: &Ray<V>) -> bool {

@@ -28,6 +28,7 @@ use crate::vector::Vector;
 /// let (index, hit) = boxes.closest(&ray).expect("a hit");
 /// assert_eq!((index, hit.t_enter, hit.enter_face), (2, 2.0, Some(Face::NegX)));
 /// assert_eq!(boxes.hits(&ray).collect::<Vec<_>>(), [0, 2]);
+/// assert!(boxes.any(&ray) && !boxes.any(&ray.with_range(0.0, 1.0)));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Aabbs<T = f32, const N: usize = 8> {

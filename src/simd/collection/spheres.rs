@@ -27,6 +27,7 @@ use crate::vector::{Number, Vector};
 /// let (index, hit) = spheres.closest(&ray).expect("a hit");
 /// assert_eq!((index, hit.t, hit.leaving), (1, 3.0, false));
 /// assert_eq!(spheres.hits(&ray.after(5.0)).collect::<Vec<_>>(), [0]);
+/// assert!(spheres.any(&ray) && !spheres.any(&ray.with_range(0.0, 1.0)));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Spheres<T = f32, const N: usize = 8> {
