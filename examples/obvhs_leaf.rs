@@ -36,7 +36,7 @@ fn closest(
     let theirs = obvhs::ray::Ray::new(ray.origin, ray.direction, ray.t_min, ray.t_max);
     let hit = bvh.ray_traverse(theirs, &mut found, |theirs, place| {
         // Their range ends at the closest t so far. By the next float, as the exact t may be beyond the rounded one.
-        let ray = Ray { t_max: theirs.tmax.next_up().min(ray.t_max), ..*ray };
+        let ray = ray.with_range(ray.t_min, theirs.tmax.next_up().min(ray.t_max));
         let triangle = &triangles[bvh.primitive_indices[place] as usize];
         // (Or `intersect`, where t within its bound is good enough.)
         if exact::hits(&ray, triangle) { exact::refine(&ray, triangle).t } else { f32::INFINITY }

@@ -11,6 +11,7 @@ mod beam;
 mod bounds;
 mod cone;
 mod conservative;
+mod docs;
 mod exact;
 mod hard_suites;
 mod mass;
