@@ -1,7 +1,7 @@
 //! A picture of panels, and its file.
 
 use std::fs::File;
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
@@ -48,7 +48,8 @@ impl Picture {
     pub(crate) fn write(&self, file: &Path) -> io::Result<()> {
         let [width, height] = Self::extent(self.size)
             .map(|pixels| u32::try_from(pixels).expect("a picture is small"));
-        let mut encoder = Encoder::new(BufWriter::new(File::create(file)?), width, height);
+        let mut file = BufWriter::new(File::create(file)?);
+        let mut encoder = Encoder::new(&mut file, width, height);
         encoder.set_color(ColorType::Rgb);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::High);
@@ -56,6 +57,7 @@ impl Picture {
         encoder.set_filter(Filter::NoFilter);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(self.pixels.as_flattened())?;
-        Ok(writer.finish()?)
+        writer.finish()?;
+        file.flush()
     }
 }
