@@ -47,18 +47,18 @@
 //! | ray, sphere | [`ray::sphere::robust`], the default | exact; t with errors ∝ distance | | | Haines et al. 2019 |
 //! | | [`ray::sphere::geometric`] | fast, errors ∝ distance² | | | Glassner 1989 |
 //! | | [`ray::sphere::algebraic`] | fast, errors ∝ distance² | | | Glassner 1989 |
-//! | ray, box | [`ray::aabb::exact`], the default | exact | 4.8–5.0 | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
-//! | | [`ray::aabb::slab`] | fast | 4.0–4.7 (full hit 8.7) | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
-//! | | [`ray::aabb::conservative`] | conservative | 4.3 (interval 5.3) | [`ray::aabb::BoxRay`] | after Ize 2013 |
-//! | ray, triangle | [`ray::triangle::exact`], the default | exact | 10.9 | | after Segura & Feito 1998 |
-//! | | [`ray::triangle::watertight`] | watertight | 14.8 | [`ray::triangle::watertight::ShearedRay`] | Woop et al. 2013 |
-//! | | [`ray::triangle::moller_trumbore`] | fast | 10.8 | | Möller & Trumbore 1997 |
-//! | | [`ray::triangle::badouel::Prepared`] | fast | 10.6 | the triangle | Badouel 1990 |
-//! | | [`ray::triangle::segura`] (`detects`) | fast | 17 (13.1) | | Segura & Feito 1998 |
+//! | ray, box | [`ray::aabb::exact`], the default | exact | 3.9 | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
+//! | | [`ray::aabb::slab`] | fast | 2.7 (full hit 7.2) | [`ray::aabb::BoxRay`] | Kay & Kajiya 1986 |
+//! | | [`ray::aabb::conservative`] | conservative | 2.7 (interval 3.8) | [`ray::aabb::BoxRay`] | after Ize 2013 |
+//! | ray, triangle | [`ray::triangle::exact`], the default | exact | 8.3 | | after Segura & Feito 1998 |
+//! | | [`ray::triangle::watertight`] | watertight | 10.3 | [`ray::triangle::watertight::ShearedRay`] | Woop et al. 2013 |
+//! | | [`ray::triangle::moller_trumbore`] | fast | 8.8 | | Möller & Trumbore 1997 |
+//! | | [`ray::triangle::badouel::Prepared`] | fast | 8.2 | the triangle | Badouel 1990 |
+//! | | [`ray::triangle::segura`] (`detects`) | fast | 14 (9.8) | | Segura & Feito 1998 |
 //! | ray, polygon | [`ray::polygon`] | fast | | | Badouel 1990 |
-//! | triangle, box | [`overlap::triangle_aabb::exact`], the default | exact | 4.8–16 | | Akenine-Möller 2001 |
-//! | | [`overlap::triangle_aabb::sat`] | fast | 5.6–15 | | Akenine-Möller 2001 |
-//! | | [`overlap::triangle_aabb::clip`] | fast, gives the polygon | 16–115 | | Sutherland & Hodgman 1974 |
+//! | triangle, box | [`overlap::triangle_aabb::exact`], the default | exact | 2.6–15 | | Akenine-Möller 2001 |
+//! | | [`overlap::triangle_aabb::sat`] | fast | 2.5–14 | | Akenine-Möller 2001 |
+//! | | [`overlap::triangle_aabb::clip`] | fast, gives the polygon | 14–102 | | Sutherland & Hodgman 1974 |
 //! | pyramid, triangle | [`overlap::pyramid_triangle`] | conservative | | | Genetti et al. 1998 |
 //! | pyramid, sphere | [`overlap::pyramid_sphere`] | conservative | | | Genetti et al. 1998 |
 //! | pyramid, box | [`overlap::pyramid_aabb`] | conservative | | | Assarsson & Möller 2000 |
@@ -68,7 +68,7 @@
 //! | cone, box | [`overlap::cone_aabb`] | conservative; covered share | | | Amanatides 1984 |
 //! | cone, triangle | [`overlap::cone_triangle`] | conservative; covered share | | | Amanatides 1984 |
 //!
-//! Times on `Vec3A`, one AMD EPYC core (Zen 3), the default x86-64 target; the README tells how they were measured.
+//! Times on `Vec3A`, one AMD EPYC core (Zen 4), the default x86-64 target; the README tells how they were measured.
 //!
 //! # Grades
 //!
