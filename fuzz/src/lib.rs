@@ -1,6 +1,8 @@
 //! Queries drawn from a fuzzer's bytes, and the rules that hold for all kernels.
 
-use isect::{Aabb, Plane, Ray, Scalar, Sphere, Triangle, Vector};
+use isect::testkit::oracle::PlaneVerdict;
+use isect::testkit::verdict;
+use isect::{Aabb, Cone, Plane, Polygon, Pyramid, Ray, Scalar, Sphere, Triangle, Vector};
 use libfuzzer_sys::arbitrary::{self, Arbitrary, Unstructured};
 
 /// A float that bytes can make.
@@ -170,6 +172,69 @@ impl<V: Vector<Scalar: Float>> Draw for Aabb<V> {
     fn draw(source: &mut Source<'_, '_>) -> Self {
         let (a, b): (V, V) = (source.vector(), source.vector());
         if source.raw::<u8>() % 8 == 1 { Self::new(a, b) } else { Self::new(a.min(b), b.max(a)) }
+    }
+}
+
+impl<V: Vector<Scalar: Float>> Draw for Cone<V> {
+    fn draw(source: &mut Source<'_, '_>) -> Self {
+        Self::new(Ray::draw(source), source.float(), source.float())
+    }
+}
+
+/// Of any corners, if they go round a pyramid, else with any sides.
+impl<V: Vector<Scalar: Float>> Draw for Pyramid<V> {
+    fn draw(source: &mut Source<'_, '_>) -> Self {
+        let apex: V = source.vector();
+        let corners = [(); 4].map(|()| source.vector());
+        Self::new(apex, corners).unwrap_or_else(|| {
+            let normals = [(); 4].map(|()| source.vector());
+            Self { apex, corners, normals }
+        })
+    }
+}
+
+/// Of up to four vertices, convex or not.
+impl<V: Vector<Scalar: Float>> Draw for Polygon<V, 8> {
+    fn draw(source: &mut Source<'_, '_>) -> Self {
+        let vertices = [(); 4].map(|()| source.vector());
+        let len = usize::from(source.raw::<u8>() % 5);
+        Self::new(&vertices[..len]).unwrap_or_default()
+    }
+}
+
+/// One of the shapes.
+#[derive(Debug)]
+pub enum Shape<V: Vector> {
+    /// A plane.
+    Plane(Plane<V>),
+    /// A sphere.
+    Sphere(Sphere<V>),
+    /// A box.
+    Aabb(Aabb<V>),
+    /// A triangle.
+    Triangle(Triangle<V>),
+}
+
+impl<V: Vector<Scalar: Float>> Draw for Shape<V> {
+    fn draw(source: &mut Source<'_, '_>) -> Self {
+        match source.raw::<u8>() % 4 {
+            0 => Self::Plane(Plane::draw(source)),
+            1 => Self::Sphere(Sphere::draw(source)),
+            2 => Self::Aabb(Aabb::draw(source)),
+            _ => Self::Triangle(Triangle::draw(source)),
+        }
+    }
+}
+
+impl<V: Vector> Shape<V> {
+    /// Whether the ray hits it, in exact arithmetic.
+    pub fn is_hit(&self, ray: &Ray<V>) -> bool {
+        match self {
+            Self::Plane(plane) => verdict::ray_plane(ray, plane) != PlaneVerdict::Miss,
+            Self::Sphere(sphere) => verdict::ray_sphere(ray, sphere),
+            Self::Aabb(aabb) => verdict::ray_aabb(ray, aabb),
+            Self::Triangle(triangle) => verdict::ray_triangle(ray, triangle).hits(),
+        }
     }
 }
 

@@ -206,11 +206,14 @@ pub(super) fn is_far<V: Vector>(cone: &Cone<V>, aabb: &Aabb<V>) -> bool {
     let Axis { frame: [.., axis], length, slope } = Axis::new(cone);
     let half = (wide(aabb.max) - wide(aabb.min)) * 0.5;
     let center = wide(aabb.min) + half - wide(cone.ray.origin);
-    let (z, radius) = (center.dot(axis), cone.radius.into());
+    // Squares of lengths that are far from 1 leave the range of exponents.
+    let scale = center.abs().max(half).max_element().max(cone.radius.into()).normalizer();
+    let (half, center, radius) = (half * scale, center * scale, cone.radius.into() * scale);
+    let z = center.dot(axis);
     let away = (center - axis * z).length() - (radius + slope * z);
     let margin = 1e-12 * ((1.0 + slope) * center.length() + radius);
     let reach = half.length() * (1.0 + 1e-12) + margin;
-    let [near, far] = [cone.ray.t_min, cone.ray.t_max].map(|t| t.into() * length);
+    let [near, far] = [cone.ray.t_min, cone.ray.t_max].map(|t| t.into() * length * scale);
     away > reach * Number::sqrt(1.0 + slope * slope) || z + reach < near || far < z - reach
 }
 

@@ -72,3 +72,37 @@ pub fn touches<V: Vector>(cone: &Cone<V>, triangle: &Triangle<V>) -> bool {
         inflated.nearest(&Outline::new(&inflated, corners)).is_some()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::overlap::cone_aabb;
+    use crate::shape::Ray;
+
+    /// Also where the squares of lengths leave the range of exponents. The middle of the triangle is beyond the end of the cone.
+    #[test]
+    fn sizes_of_any_exponent() {
+        for exponent in [-700, -330, 0, 330, 500] {
+            let size = 2.0_f64.powi(exponent);
+            let cone = |radius: f64| {
+                let ray = Ray::new(DVec3::ZERO, DVec3::Z * size).with_range(0.0, 3.0);
+                Cone::new(ray, radius * size, 0.5 * size)
+            };
+            let at = |x: f64| {
+                let corners = [(x, 0.0, 2.0), (9.0, 0.0, 2.0), (9.0, 1.0, 6.0)];
+                Triangle::from(corners.map(|(x, y, z)| DVec3::new(x, y, z) * size))
+            };
+            for (x, expected) in [(1.0, false), (1.25, true), (1.251, false), (-1.0, true)] {
+                let (cone, triangle) = (cone(if x == 1.0 { -1.0 } else { 0.25 }), at(x));
+                assert_eq!(touches(&cone, &triangle), expected, "{exponent} {x}");
+                assert_eq!(intersect(&cone, &triangle).is_some(), expected, "{exponent} {x}");
+                // The box around it comes nearer.
+                let aabb = triangle.aabb();
+                assert_eq!(cone_aabb::touches(&cone, &aabb), x != 1.0, "{exponent} {x}");
+                assert_eq!(cone_aabb::intersect(&cone, &aabb).is_some(), x != 1.0);
+            }
+        }
+    }
+}

@@ -13,8 +13,8 @@ use crate::vector::{Coordinates, Number, Scalar, Vector, tan};
 /// part of a cone whose apex lies behind the origin. The spread is a length per unit of t: for a direction
 /// of length 1 the tangent of the half-angle. What the range says of negative t does not count.
 ///
-/// A negative radius or spread, both zero (that is a ray), one infinite or NaN, or a ray that hits nothing:
-/// such a cone touches nothing.
+/// A negative radius or spread, both zero (that is a ray), one infinite or NaN, a spread/|d| beyond the range of `f64`,
+/// or a ray that hits nothing: such a cone touches nothing.
 ///
 /// ```
 /// use isect::{Cone, Ray, glam::Vec3};
@@ -92,6 +92,7 @@ impl<V: Vector> Cone<V> {
     pub(crate) fn is_valid(&self) -> bool {
         let (zero, Self { ray, radius, spread }) = (V::Scalar::ZERO, *self);
         let in_front = Ray { t_min: ray.t_min.max(zero), ..ray };
+        let slope: f64 = spread.into() / ray.direction.length().into();
         ray.is_valid()
             && ray.has_range()
             && in_front.has_range()
@@ -99,7 +100,7 @@ impl<V: Vector> Cone<V> {
             && zero <= spread
             && zero < radius.max(spread)
             && radius.is_finite()
-            && spread.is_finite()
+            && slope < f64::INFINITY
     }
 }
 

@@ -13,7 +13,7 @@ use crate::vector::{Coordinates, Number, Scalar, Vector};
 /// Supersampling in Object Space Using Pyramidal Rays", Computer Graphics Forum 17.1, 1998. The
 /// normals as they are stored define it, though they are rounded: what [`crate::overlap`] promises is about
 /// these points, and [`Self::split`] loses none of them. A side with a normal of zero bounds nothing. A
-/// pyramid with an infinite or NaN field has no points.
+/// pyramid with an infinite or NaN apex or normal has no points.
 ///
 /// ```
 /// use isect::{Pyramid, glam::Vec3};
