@@ -7,6 +7,7 @@
 //!
 //! With `--verify` it runs them over the testkit's hard cases instead, and prints their faults.
 
+mod chart;
 #[path = "../../../examples/verify/contender.rs"]
 mod contender;
 #[path = "../../data/mod.rs"]
@@ -22,6 +23,8 @@ mod timing;
 mod triangle_box;
 mod verify;
 
+use std::fs;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -39,9 +42,12 @@ struct Options {
     /// Only contenders whose name contains this (and the reference).
     #[arg(long, default_value = "")]
     filter: String,
-    /// Only questions whose title contains this.
-    #[arg(long, default_value = "")]
-    question: String,
+    /// Only questions whose title contains this, or one of several.
+    #[arg(long)]
+    question: Vec<String>,
+    /// Also draws the ratios of these questions.
+    #[arg(long, value_name = "FILE.svg")]
+    chart: Option<PathBuf>,
     /// Compares answers with exact arithmetic, in place of times with each other.
     #[arg(long)]
     verify: bool,
@@ -69,10 +75,22 @@ fn main() -> ExitCode {
         .chain(triangle_box::questions())
         .chain(packs::triangle_questions())
         .chain(packs::box_questions());
-    for mut question in questions.filter(|q| q.title.contains(&options.question)) {
+    let is_asked = |title: &str| {
+        options.question.is_empty() || options.question.iter().any(|part| title.contains(part))
+    };
+    let mut groups = Vec::new();
+    for mut question in questions.filter(|q| is_asked(&q.title)) {
         question.contenders.retain(|c| c.is_reference || c.name.contains(&options.filter));
         let results = timing::race(&mut question.contenders, rounds);
         println!("{}", report::table(&question, &results));
+        groups.push(chart::Group::new(&question, &results));
     }
-    ExitCode::SUCCESS
+    let Some(file) = options.chart else { return ExitCode::SUCCESS };
+    match chart::draw(&groups).and_then(|svg| Ok(fs::write(&file, svg)?)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {}: {error}", file.display());
+            ExitCode::from(2)
+        }
+    }
 }

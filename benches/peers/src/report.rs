@@ -63,7 +63,7 @@ pub fn table(question: &Question, outcomes: &[Outcome]) -> String {
             quantile(&times, 0.0),
             outcome.cycles,
             quantile(&times, 0.5),
-            quantile(&ratios, 0.5),
+            ratio(outcome),
             quantile(&ratios, 0.1),
             quantile(&ratios, 0.9),
         );
@@ -77,6 +77,11 @@ pub fn table(question: &Question, outcomes: &[Outcome]) -> String {
         percent(integers)
     );
     table
+}
+
+/// The median of the ratios to the reference.
+pub fn ratio(outcome: &Outcome) -> f64 {
+    quantile(&sorted(&outcome.ratios), 0.5)
 }
 
 fn sorted(values: &[f64]) -> Vec<f64> {
