@@ -198,6 +198,8 @@
 //! * `simd` (default): `isect::simd`, packs of triangles and boxes, packets of rays, and collections, for the width of
 //!   the processor, which is found out at run time.
 //! * `testkit`: `isect::testkit`, the exact oracle, hard cases and a runner, to test kernels with.
+//! * `serde`, `bytemuck`, `approx`, `proptest`: the traits of these crates for the shapes and hits; `isect::interop` says which,
+//!   what is written of an infinity, and what is drawn.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -209,6 +211,8 @@ extern crate alloc;
 pub use glam;
 
 mod exact;
+#[cfg(any(feature = "serde", feature = "bytemuck", feature = "approx", feature = "proptest"))]
+pub mod interop;
 pub mod overlap;
 pub mod ray;
 mod shape;

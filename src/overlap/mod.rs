@@ -18,6 +18,7 @@ pub use cone::ConeHit;
 
 /// Where a shape lies with respect to a solid one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Containment {
     /// They share no point.
     Outside,

@@ -241,6 +241,7 @@ impl<V: Vector> Aabb<V> {
 /// Where a ray enters or leaves through an edge or a corner, the face of the first such axis (x,
 /// then y, then z) is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(u8)]
 pub enum Face {
     /// x = min.x

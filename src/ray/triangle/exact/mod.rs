@@ -22,6 +22,7 @@ use filter::Undecided;
 
 /// Where a ray meets a triangle. Edge i joins vertex i to vertex i + 1 (modulo 3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Verdict {
     /// They have no point in common.
     Miss,
