@@ -223,8 +223,8 @@ pub mod spawn;
 pub mod testkit;
 mod vector;
 
-/// The examples of the README are tests.
-#[cfg(doctest)]
+/// The examples of the README are tests. (A published crate has not the dev-dependency that brings the testkit.)
+#[cfg(all(doctest, feature = "simd", feature = "testkit"))]
 #[doc = include_str!("../README.md")]
 struct Readme;
 
