@@ -73,7 +73,7 @@ fn triangles() {
         for kernel in triangle_kernels::<V>() {
             let mut rng = fastrand::Rng::with_seed(SEED);
             let (mut hits, mut misses, mut unbounded) = (0, 0, 0);
-            for _ in 0..150_000 {
+            for _ in 0..60_000 {
                 let (ray_, vertices) = generators::ray_triangle(&mut rng);
                 match (kernel.bound)(unit, &ray_, &vertices)
                     .filter(|b| in_exponent_range::<V>(&ray_, &vertices, b))
@@ -178,7 +178,7 @@ fn spheres() {
         for kernel in sphere_kernels::<V>() {
             let mut rng = fastrand::Rng::with_seed(SEED + 1);
             let (mut near, mut far, mut misses, mut clear_misses) = (0, 0, 0, 0);
-            for _ in 0..150_000 {
+            for _ in 0..60_000 {
                 let (ray_, center, radius) = generators::ray_sphere(&mut rng);
                 let shell = Shell::new(&kernel, &ray_, center, radius);
                 let hit = (kernel.intersect)(&ray::<V>(&ray_), &sphere(&center, radius));
