@@ -88,7 +88,7 @@ fn triangles() {
                 name::<V>(),
                 kernel.name
             );
-            assert!(hits > 20_000 && misses > 20_000);
+            assert!(hits > 8_000 && misses > 8_000);
         }
     }
     for_every_vector!(check);
