@@ -117,7 +117,7 @@ fn a_bad_mesh_is_named_with_the_reason() {
 #[test]
 fn bad_options_are_named_with_the_reason() {
     let folder = Folder::new("options");
-    let cases: [(&[&str], &str); 59] = [
+    let cases: [(&[&str], &str); 65] = [
         (&["--size", "0x9"], "at least one pixel"),
         (&["--size", "100000x100000"], "more than 67108864 pixels"),
         (&["--size", "wide"], "not of the form 960x540"),
@@ -128,7 +128,13 @@ fn bad_options_are_named_with_the_reason() {
         (&["--crop", "0,0,-9,9"], "not of the form 0,0,480,270"),
         (&["--crop", "5,5,9,5"], "no pixels in it"),
         (&["--crop", "0,0,9,541"], "'--crop 0,0,9,541': there are no pixels beyond 960x540"),
-        (&["--crop", "0,0,9,9", "--bench"], "cannot be used with '--bench'"),
+        (&["--crop", "-1,0,3,3"], "not of the form 0,0,480,270"),
+        (&["--samples", "-1"], "'--samples"),
+        (&["--fog", "linear", "--fog-range", "-3,4"], "not 0 ≤ DMIN < DMAX"),
+        (&["--fog", "exponential", "--fog-density", "-1"], "not a number greater than 0"),
+        (&["--depth", "-1"], "'--depth"),
+        (&["--threads", "-1"], "'--threads"),
+        (&["--seed", "-1"], "'--seed"),
         (&["--merge"], "a value is required for '--merge"),
         (&["--merge", "a.png", "--crop", "0,0,9,9"], "'--crop' has no place with '--merge'"),
         (&["--merge", "a.png", "--seed", "1"], "'--seed' has no place with '--merge'"),
@@ -159,8 +165,8 @@ fn bad_options_are_named_with_the_reason() {
         (&["--antialias", "pyramid", "--packets"], "'--antialias pyramid' has no packets"),
         (&["--antialias", "cone", "--max-level", "2"], "'--max-level' has no place"),
         (&["--antialias", "cone", "--packets"], "'--antialias cone' has no packets"),
-        (&["--antialias", "cone", "--lamp-radius", "-1"], "'--lamp-radius"),
-        (&["--antialias", "cone", "--lamp-radius", "inf"], "not a number from 0 up"),
+        (&["--antialias", "cone", "--lamp-radius", "-1"], "not a number from 0 to 10000"),
+        (&["--antialias", "cone", "--lamp-radius", "inf"], "not a number from 0 to 10000"),
         (&["--lamp-radius", "1"], "'--lamp-radius' has no place with '--antialias uniform'"),
         (&["--compare", "a.svg", "--lamp-radius", "1"], "'--lamp-radius' has no place"),
         (&["--max-level", "2"], "'--max-level' has no place with '--antialias uniform'"),
@@ -401,7 +407,18 @@ fn parts_that_do_not_fit_are_named_with_the_reason() {
 #[test]
 fn the_bench_makes_a_table_and_no_picture() {
     let folder = Folder::new("bench");
-    let output = folder.run(&["--bench", "--mesh", "icosphere:1"]);
+    let bench = ["--bench", "--mesh", "icosphere:1", "--size", "16x9"];
+    let run = |more: &[&str]| {
+        let arguments = [&bench[..], more].concat();
+        Command::new(tracer()).args(arguments).current_dir(&folder.0).output().unwrap()
+    };
+    for [option, value] in [["--output", "x.png"], ["--crop", "0,0,9,9"], ["--fog", "linear"]] {
+        let refused = run(&[option, value]);
+        assert_eq!(refused.status.code(), Some(2));
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(said, format!("error: '{option}' has no place with '--bench'\n"));
+    }
+    let output = run(&[]);
     assert!(output.status.success() && output.stderr.is_empty());
     let table = String::from_utf8(output.stdout).unwrap();
     let row = |name: &str| {

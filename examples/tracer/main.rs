@@ -90,7 +90,7 @@ struct Arguments {
     #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = parse_size)]
     size: [u32; 2],
     /// Renders only the columns X0 to X1 − 1 and the rows Y0 to Y1 − 1, as a part for --merge
-    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop, conflicts_with = "bench")]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
     crop: Option<Tile>,
     /// Instead of rendering, puts together the parts of a picture, in any order
     #[arg(long, value_name = "PART.png", num_args = 1..)]
@@ -243,8 +243,26 @@ fn parse_mesh(text: &str) -> Result<MeshSource, String> {
     }
 }
 
+/// The options whose values are numbers.
+const NUMBERS: &[&str] = &[
+    "size",
+    "crop",
+    "samples",
+    "max_level",
+    "seed",
+    "lamp_radius",
+    "fog_range",
+    "fog_density",
+    "fog_color",
+    "depth",
+    "threads",
+];
+
 /// The options beside which --merge has a place, itself among them.
 const MERGE: &[&str] = &["merge", "output"];
+
+/// Likewise for --bench.
+const BENCH: &[&str] = &["bench", "scene", "mesh", "size"];
 
 /// Likewise for --compare.
 const COMPARE: &[&str] = &[
@@ -264,10 +282,14 @@ const COMPARE: &[&str] = &[
 
 /// Reads the command line.
 fn parse() -> Result<Arguments, clap::Error> {
-    let mut command = Arguments::command();
+    // A negative number is a bad value, not an option.
+    let mut command = Arguments::command().mut_args(|argument| {
+        let is_number = NUMBERS.contains(&argument.get_id().as_str());
+        argument.allow_hyphen_values(is_number)
+    });
     let mut matches = command.try_get_matches_from_mut(std::env::args_os())?;
     let is_given = |option: &str| matches.value_source(option) == Some(ValueSource::CommandLine);
-    for (mode, has_place) in [("merge", MERGE), ("compare", COMPARE)] {
+    for (mode, has_place) in [("merge", MERGE), ("compare", COMPARE), ("bench", BENCH)] {
         let is_misplaced = |option: &&str| is_given(option) && !has_place.contains(option);
         let mut options = command.get_arguments().map(|argument| argument.get_id().as_str());
         if let (true, Some(option)) = (is_given(mode), options.find(is_misplaced)) {

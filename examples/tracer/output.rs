@@ -64,11 +64,17 @@ struct Temporary {
 
 impl Temporary {
     fn create(beside: &Path) -> io::Result<Self> {
-        let mut name = beside.file_name().unwrap_or_default().to_owned();
-        name.push(format!(".{}.tmp", std::process::id()));
-        let path = beside.with_file_name(name);
-        let file = File::create_new(&path)?;
-        Ok(Self { path, file })
+        let mut number = 0_u32;
+        loop {
+            let mut name = beside.file_name().unwrap_or_default().to_owned();
+            name.push(format!(".{}.{number}.tmp", std::process::id()));
+            let path = beside.with_file_name(name);
+            match File::create_new(&path) {
+                // One that was killed has left it, with the same number of a process: in a container that is not rare.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
+                file => return Ok(Self { path, file: file? }),
+            }
+        }
     }
 }
 
@@ -99,6 +105,18 @@ mod tests {
         let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().path()).collect();
         assert_eq!(names, [file.as_path()]);
         assert_eq!(fs::read(&file).unwrap(), b"whole");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_no_obstacle() {
+        let folder = std::env::temp_dir().join(format!("isect-killed-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("picture.png");
+        std::mem::forget(Temporary::create(&file).unwrap());
+        Output::new(&file).unwrap().write(|file| file.write_all(b"whole")).unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"whole");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
         fs::remove_dir_all(&folder).unwrap();
     }
 }

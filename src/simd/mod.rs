@@ -63,8 +63,11 @@
 //!         let nodes = self.bounds.conservative(simd, &BoxRay::new(&ray));
 //!         for child in (0..8).filter(|child| (nodes.mask >> child) & 1 == 1) {
 //!             if let Some((_, hit)) = self.leaves[child].closest(simd, &ray) {
-//!                 closest = Some(hit.t);
-//!                 ray.t_max = hit.t;
+//!                 if closest.is_none_or(|t| hit.t < t) {
+//!                     closest = Some(hit.t);
+//!                 }
+//!                 // By the next float: the exact t may be beyond the rounded one.
+//!                 ray.t_max = hit.t.next_up().min(ray.t_max);
 //!             }
 //!         }
 //!         closest

@@ -48,17 +48,17 @@ pub(crate) struct Options {
     /// How a pixel gets its colour
     #[arg(long, value_name = "METHOD", value_enum, default_value = "uniform")]
     antialias: MethodName,
-    /// Rays per pixel, uniform and stochastic: 1, 4, 9, … 1024 [default: 4]
+    /// Rays per pixel: 1, 4, 9, … 1024; with uniform and stochastic only [default: 4]
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<PerEdge>,
-    /// How often a pixel splits at most, adaptive and pyramid: 0 to 6 [default: 3]
+    /// How often a pixel splits at most: 0 to 6; with adaptive and pyramid only [default: 3]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(..=6))]
     max_level: Option<u8>,
-    /// What the random numbers follow from, stochastic [default: 0]
+    /// What the random numbers follow from; with stochastic only [default: 0]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// The radius of all lamps, for soft shadows, cone [default: 0]
-    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = parse_radius)]
+    /// The radius of all lamps, for soft shadows, in units of the scene, up to 10000; with cone only [default: 0]
+    #[arg(long, value_name = "R", value_parser = parse_radius)]
     lamp_radius: Option<f32>,
 }
 
@@ -75,11 +75,14 @@ fn parse_samples(text: &str) -> Result<PerEdge, String> {
         .ok_or_else(|| "not a square number from 1 to 1024".into())
 }
 
+/// The greatest radius of a lamp: scenes are some hundreds wide.
+const MAX_RADIUS: f32 = 1e4;
+
 /// Reads a radius.
 fn parse_radius(text: &str) -> Result<f32, String> {
     match text.parse() {
-        Ok(radius) if (0.0..f32::INFINITY).contains(&radius) => Ok(radius),
-        _ => Err("not a number from 0 up".into()),
+        Ok(radius) if (0.0..=MAX_RADIUS).contains(&radius) => Ok(radius),
+        _ => Err(format!("not a number from 0 to {MAX_RADIUS}")),
     }
 }
 

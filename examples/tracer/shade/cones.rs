@@ -19,10 +19,10 @@ use crate::kernel::Exact;
 use crate::scene::{Color, Scene, Shape};
 use crate::surface::{Surface, through_material, transmittance};
 
-/// Where a cone touches more primitives than this
+/// The number of primitives beyond which a cone does not look at each of them.
 const MANY: usize = 16;
 
-/// one stands for as many parts of a surface as make up this share.
+/// Of more than [`MANY`] one stands for as many parts of a surface as make up this share.
 const SMALL: f32 = 1.0 / 32.0;
 
 /// How much longer than wide what a cone sees of a surface may be: beyond that it is cut off.
@@ -59,6 +59,8 @@ struct Touch {
     layer: usize,
     /// Where a triangle ends that is seen from behind: of a closed surface a front hides it, whichever begins first.
     back: Option<f32>,
+    /// The ray to the middle of it, if that was looked for.
+    middle: Option<Ray<Vec3A>>,
 }
 
 /// What of a cone's section the primitives of a surface have covered so far.
@@ -80,6 +82,7 @@ struct Layer {
 struct Part {
     primitive: Primitive,
     t: f32,
+    middle: Option<Ray<Vec3A>>,
     /// Of the section, by itself.
     coverage: f32,
     /// Of the section, with what it hides and stands for.
@@ -89,6 +92,8 @@ struct Part {
 /// A point of a surface and what is around it.
 struct Spot<'a> {
     surface: Surface<'a>,
+    /// The shape that need not be asked again.
+    shape: Option<usize>,
     /// That of the ray to it.
     direction: Vec3A,
     /// The radius of what the cone sees of it, across the axis.
@@ -111,35 +116,51 @@ impl<'a> Cones<'a> {
     /// The light that arrives through a cone from the eye.
     pub(crate) fn color(&self, cone: &Cone<Vec3A>, counts: &mut RayCounts) -> Color {
         counts.primary += 1;
-        self.radiance(cone, self.tracer.trunk(), counts)
+        self.radiance(cone, None, self.tracer.trunk(), counts)
     }
 
-    /// The light that arrives through any cone.
-    fn radiance(&self, cone: &Cone<Vec3A>, branch: Branch<'a>, counts: &mut RayCounts) -> Color {
-        let mut left = 1.0;
-        let mut color = Color::ZERO;
-        for part in parts(self.touches(cone), self.scene().shapes.len() + 2) {
-            if let Some(spot) = self.spot(cone, &part) {
+    /// The light that arrives through any cone, which comes from one of the scene's shapes or does not.
+    fn radiance(
+        &self,
+        cone: &Cone<Vec3A>,
+        from: Option<usize>,
+        branch: Branch<'a>,
+        counts: &mut RayCounts,
+    ) -> Color {
+        // The shapes, all polygons, and the mesh.
+        let layers = self.scene().shapes.len() + 2;
+        let parts = parts(self.in_order(cone, self.touches(cone, from)), layers);
+        let (mut color, mut found) = (Color::ZERO, 0.0);
+        for part in &parts {
+            if let Some(spot) = self.spot(cone, part) {
                 let branch = Branch { weight: branch.weight * part.share, ..branch };
                 let seen = self.seen(cone.ray.origin, spot, branch, counts);
                 // As of a ray: brighter than white is white, or edges would have steps.
                 color += part.share * seen.min(Color::ONE);
-                left -= part.share;
+                found += part.share;
             }
         }
-        color + self.tracer.sky(&cone.ray) * left.max(0.0)
+        if found <= 0.0 {
+            return self.tracer.sky(&cone.ray);
+        }
+        // What no ray found looks like the rest.
+        let covered = parts.iter().map(|part| part.share).sum::<f32>().min(1.0);
+        color * (covered / found) + self.tracer.sky(&cone.ray) * (1.0 - covered)
     }
 
     fn scene(&self) -> &'a Scene {
         self.tracer.scene
     }
 
-    /// All that covers something of a cone.
-    fn touches(&self, cone: &Cone<Vec3A>) -> Vec<Touch> {
+    /// All that a cone touches, but for the shape that it comes from.
+    fn touches(&self, cone: &Cone<Vec3A>, from: Option<usize>) -> Vec<Touch> {
         let mut touches = Vec::new();
         let lines = Lines::new(cone);
         let Scene { shapes, mesh, .. } = self.scene();
         for (layer, (shape, _)) in shapes.iter().enumerate() {
+            if Some(layer) == from {
+                continue;
+            }
             let hit = match shape {
                 Shape::Sphere(sphere) => cone_sphere::intersect(cone, sphere),
                 Shape::Plane(plane) => cone_plane::intersect(cone, plane),
@@ -165,6 +186,7 @@ impl<'a> Cones<'a> {
                 coverage: hit.coverage,
                 layer,
                 back: None,
+                middle: None,
             }));
         }
         if let Some(hierarchy) = self.hierarchy {
@@ -181,43 +203,95 @@ impl<'a> Cones<'a> {
         touches
     }
 
+    /// What covers a cone, from near to far.
+    ///
+    /// Where something begins says little if it is long, as a floor under what stands on it. So of two things the smaller one's
+    /// middle decides, if they are not too many to ask.
+    fn in_order(&self, cone: &Cone<Vec3A>, mut touches: Vec<Touch>) -> Vec<Touch> {
+        touches.retain(|touch| touch.coverage > 0.0);
+        touches.sort_by(|a, b| a.back.unwrap_or(a.t).total_cmp(&b.back.unwrap_or(b.t)));
+        if touches.len() > MANY {
+            return touches;
+        }
+        let lines = Lines::new(cone);
+        for touch in &mut touches {
+            touch.middle = self.middle(&lines, &touch.primitive, touch.t);
+        }
+        let is_before = |a: &Touch, b: &Touch| {
+            let smaller = if a.coverage < b.coverage { a } else { b };
+            smaller
+                .middle
+                .is_some_and(|ray| self.depth(&ray, &a.primitive) < self.depth(&ray, &b.primitive))
+        };
+        for end in 1..touches.len() {
+            let mut place = end;
+            while place > 0 && is_before(&touches[place], &touches[place - 1]) {
+                touches.swap(place, place - 1);
+                place -= 1;
+            }
+        }
+        touches
+    }
+
+    /// Where a ray meets a primitive, a triangle as far as its plane goes; infinity if it does not.
+    fn depth(&self, ray: &Ray<Vec3A>, primitive: &Primitive) -> f32 {
+        match primitive {
+            Primitive::Mesh(_, triangle) | Primitive::Face(_, triangle) => {
+                let normal = triangle.normal();
+                let t = normal.dot(triangle.v0 - ray.origin) / normal.dot(ray.direction);
+                if t >= 0.0 { t } else { f32::INFINITY }
+            }
+            Primitive::Shape(index) => {
+                let hit = self.scene().shapes[*index].0.intersect(ray);
+                hit.map_or(f32::INFINITY, |hit| hit.t)
+            }
+        }
+    }
+
+    /// The ray to the middle of a primitive that begins at t.
+    fn middle(&self, lines: &Lines, primitive: &Primitive, t: f32) -> Option<Ray<Vec3A>> {
+        match primitive {
+            Primitive::Mesh(_, triangle) | Primitive::Face(_, triangle) => {
+                lines.to_triangle(triangle, t)
+            }
+            Primitive::Shape(index) => lines.ray(match &self.scene().shapes[*index].0 {
+                Shape::Sphere(sphere) => lines.to_sphere(sphere.center, sphere.radius),
+                Shape::Plane(plane) => {
+                    let height = plane.normal.as_dvec3().dot(lines.apex) - f64::from(plane.offset);
+                    lines.to_plane(if height < 0.0 { plane.normal } else { -plane.normal })
+                }
+                Shape::Box(_) | Shape::Polygon(_) => return None,
+            }),
+        }
+    }
+
     /// What is in the middle of a part, if a ray finds it: of a thin one it may not.
     fn spot(&self, cone: &Cone<Vec3A>, part: &Part) -> Option<Spot<'a>> {
         let (lines, scene) = (Lines::new(cone), self.scene());
-        let (surface, direction, curvature) = match part.primitive {
+        let ray = part.middle.or_else(|| self.middle(&lines, &part.primitive, part.t))?;
+        let (surface, shape) = match part.primitive {
             Primitive::Mesh(index, triangle) => {
-                let ray = lines.to_triangle(&triangle, part.t)?;
                 let hit = MeshHit { triangle: index, hit: ray.intersect(&triangle)? };
-                (Surface::of_mesh(scene, &ray, &hit), ray.direction, 0.0)
+                (Surface::of_mesh(scene, &ray, &hit), None)
             }
-            Primitive::Face(index, triangle) => {
-                let ray = lines.to_triangle(&triangle, part.t)?;
+            Primitive::Face(index, _) | Primitive::Shape(index) => {
                 let (shape, material) = &scene.shapes[index];
-                (Surface::of_shape(&shape.intersect(&ray)?, material), ray.direction, 0.0)
-            }
-            Primitive::Shape(index) => {
-                let (shape, material) = &scene.shapes[index];
-                let (direction, curvature) = match shape {
-                    Shape::Sphere(sphere) => {
-                        (lines.to_sphere(sphere.center, sphere.radius), sphere.radius.recip())
-                    }
-                    Shape::Plane(plane) => {
-                        let height = plane.normal.dot(cone.ray.origin) - plane.offset;
-                        let down = if height < 0.0 { plane.normal } else { -plane.normal };
-                        (lines.to_plane(down), 0.0)
-                    }
-                    Shape::Box(_) | Shape::Polygon(_) => return None,
-                };
-                let ray = lines.ray(direction)?;
-                (Surface::of_shape(&shape.intersect(&ray)?, material), ray.direction, curvature)
+                (Surface::of_shape(&shape.intersect(&ray)?, material), Some(index))
             }
         };
+        let curvature = match shape.map(|index| &scene.shapes[index].0) {
+            Some(Shape::Sphere(sphere)) => sphere.radius.recip(),
+            _ => 0.0,
+        };
+        // Shapes are convex: what leaves one on the outside does not come back.
+        let shape = shape.filter(|_| !surface.leaving);
         // A narrower cone has room in the lines of sight that meet the part.
         let width = part.coverage;
         let radius = cone.radius_at(t_at(cone, surface.point)) * width;
         Some(Spot {
             surface,
-            direction,
+            shape,
+            direction: ray.direction,
             radius,
             spread: cone.spread / cone.ray.direction.length() * width,
             curvature,
@@ -233,10 +307,10 @@ impl<'a> Cones<'a> {
         counts: &mut RayCounts,
     ) -> Color {
         let around = spot.around();
-        let Spot { surface, direction, radius, spread, curvature } = spot;
+        let Spot { surface, shape, direction, radius, spread, curvature } = spot;
         let color = surface.material.paint.over(surface.point, around);
         let sight = Sight::of_color(surface, direction, color);
-        let mut color = self.local(&sight, radius, counts);
+        let mut color = self.local(&sight, shape, radius, counts);
         for Onward { direction, is_refracted, share, tint } in sight.onward() {
             let Some(branch) = branch.next(share) else { continue };
             counts.count_onward(is_refracted);
@@ -258,22 +332,31 @@ impl<'a> Cones<'a> {
                 other => other.abs().max(grown),
             };
             let mut ray = surface.spawn(direction);
-            let cosine = surface.geometric_normal.normalize().dot(direction);
-            let sag = radius * radius * curvature;
-            ray.t_min = clearance(radius, cosine) + sag / cosine.abs().max(1.0 / LONGEST);
+            let from = shape.filter(|_| !is_refracted);
+            if from.is_none() {
+                let cosine = surface.geometric_normal.normalize().dot(direction);
+                let sag = radius * radius * curvature;
+                ray.t_min = clearance(radius, cosine) + sag / cosine.abs().max(1.0 / LONGEST);
+            }
             let onward = Cone::new(ray, radius, spread);
-            color += tint * (share * self.radiance(&onward, branch, counts));
+            color += tint * (share * self.radiance(&onward, from, branch, counts));
         }
         self.scene().fog.over(color, from.distance(sight.surface.point))
     }
 
     /// The light of the lamps and the sky that a surface itself scatters.
-    fn local(&self, sight: &Sight<'_>, radius: f32, counts: &mut RayCounts) -> Color {
+    fn local(
+        &self,
+        sight: &Sight<'_>,
+        shape: Option<usize>,
+        radius: f32,
+        counts: &mut RayCounts,
+    ) -> Color {
         let mut local = Local::new(self.scene(), sight);
         for light in &self.scene().lights {
             if let Some(shadow) = local.shadow(light) {
                 counts.shadow += 1;
-                let lit = self.lit(&sight.surface, &shadow, radius);
+                let lit = self.lit(&sight.surface, shape, &shadow, radius);
                 local.add(light, &shadow, lit);
             }
         }
@@ -281,9 +364,15 @@ impl<'a> Cones<'a> {
     }
 
     /// The share of a lamp that a spot sees, on the average: of the lines between the two that nothing covers.
-    fn lit(&self, surface: &Surface<'_>, shadow: &Shadow, radius: f32) -> f32 {
+    fn lit(
+        &self,
+        surface: &Surface<'_>,
+        shape: Option<usize>,
+        shadow: &Shadow,
+        radius: f32,
+    ) -> f32 {
         let cosine = surface.geometric_normal.normalize().dot(shadow.to_light);
-        let clear = clearance(radius, cosine) / shadow.distance;
+        let clear = if shape.is_some() { 0.0 } else { clearance(radius, cosine) / shadow.distance };
         if clear >= 1.0 {
             // The lamp is as near as the spot is wide.
             return transmittance(self.scene(), self.tracer.accelerator, &shadow.ray);
@@ -297,40 +386,44 @@ impl<'a> Cones<'a> {
             // The two as wide make a cylinder.
             Cone::new(ray, self.lamp_radius, radius - self.lamp_radius)
         };
-        self.through(&cone)
+        self.through(&cone, shape)
     }
 
-    /// The share of a shadow cone that gets through.
-    fn through(&self, cone: &Cone<Vec3A>) -> f32 {
+    /// The share of a shadow cone that gets through, whatever it comes from.
+    fn through(&self, cone: &Cone<Vec3A>, from: Option<usize>) -> f32 {
         let Scene { shapes, mesh, .. } = self.scene();
         let lines = Lines::new(cone);
         let mut share = 1.0;
         // Of the fronts and of the backs: a closed surface has as many of both.
         let [mut in_polygons, mut in_mesh] = [[0.0_f32; 2]; 2];
-        let add = |sums: &mut [f32; 2], triangle: &Triangle<Vec3A>| {
+        let add = |sums: &mut [f32; 2], triangle: &Triangle<Vec3A>, opacity: f32| {
             if let Some(hit) = cone_triangle::intersect(cone, triangle) {
                 let is_back = lines.see_back(triangle.v0, triangle.normal());
-                sums[usize::from(is_back)] += hit.coverage;
+                sums[usize::from(is_back)] += hit.coverage * opacity;
             }
         };
-        for (shape, material) in shapes {
+        for (index, (shape, material)) in shapes.iter().enumerate() {
+            if Some(index) == from {
+                continue;
+            }
+            let opacity = 1.0 - through_material(material);
             let hit = match shape {
                 Shape::Sphere(sphere) => cone_sphere::intersect(cone, sphere),
                 Shape::Plane(plane) => cone_plane::intersect(cone, plane),
                 Shape::Box(aabb) => cone_aabb::intersect(cone, aabb),
                 Shape::Polygon(polygon) => {
-                    polygon.triangles().for_each(|triangle| add(&mut in_polygons, &triangle));
+                    polygon.triangles().for_each(|t| add(&mut in_polygons, &t, opacity));
                     None
                 }
             };
             if let Some(hit) = hit {
-                share *= 1.0 - hit.coverage * (1.0 - through_material(material));
+                share *= 1.0 - hit.coverage * opacity;
             }
         }
         if let Some(hierarchy) = self.hierarchy {
             hierarchy.visit(
                 |aabb| cone_aabb::touches(cone, aabb),
-                |index| add(&mut in_mesh, &mesh.triangle(index)),
+                |index| add(&mut in_mesh, &mesh.triangle(index), 1.0),
             );
         }
         for [fronts, backs] in [in_polygons, in_mesh] {
@@ -416,7 +509,8 @@ impl Lines {
             let farthest = corners.into_iter().fold(hit.t, f32::max);
             self.farthest(triangle.v0, normal).map_or(farthest, |t| farthest.min(t).max(hit.t))
         });
-        Some(Touch { primitive, t: hit.t, coverage: hit.coverage, layer, back })
+        let (t, coverage) = (hit.t, hit.coverage);
+        Some(Touch { primitive, t, coverage, layer, back, middle: None })
     }
 
     /// Whether they come to a point from behind.
@@ -486,14 +580,12 @@ impl Lines {
 }
 
 /// Shares out a cone's section among what covers it, from near to far.
-fn parts(mut touches: Vec<Touch>, layers: usize) -> Vec<Part> {
-    touches.retain(|touch| touch.coverage > 0.0);
-    touches.sort_by(|a, b| a.back.unwrap_or(a.t).total_cmp(&b.back.unwrap_or(b.t)));
+fn parts(touches: Vec<Touch>, layers: usize) -> Vec<Part> {
     let least = if touches.len() > MANY { SMALL } else { 0.0 };
     let mut layers = vec![Layer::default(); layers];
     let mut parts = Vec::new();
     for touch in touches {
-        let Touch { primitive, t, coverage, .. } = touch;
+        let Touch { primitive, t, coverage, middle, .. } = touch;
         let others = layers.iter().enumerate().filter(|&(layer, _)| layer != touch.layer);
         let not_hidden: f32 = others.map(|(_, layer)| 1.0 - layer.covered).product();
         let layer = &mut layers[touch.layer];
@@ -506,7 +598,7 @@ fn parts(mut touches: Vec<Touch>, layers: usize) -> Vec<Part> {
         let covered = (coverage - hidden).min(1.0 - layer.covered);
         layer.covered += covered;
         let share = covered * not_hidden + layer.waiting.map_or(0.0, |part| part.share);
-        let part = Part { primitive, t, coverage, share };
+        let part = Part { primitive, t, middle, coverage, share };
         layer.waiting = Some(part).filter(|part| part.share > 0.0);
         if layer.waiting.is_some() && share > least {
             layer.waiting = None;
@@ -568,7 +660,7 @@ mod tests {
         let to_light = ray.direction.normalize();
         let distance = ray.direction.length();
         let shadow = Shadow { ray, to_light, facing: to_light.y, distance };
-        cones.lit(&surface, &shadow, radius)
+        cones.lit(&surface, None, &shadow, radius)
     }
 
     /// The edge of the cells that the lamp's disk is divided in, of its radius.
@@ -635,6 +727,27 @@ mod tests {
     }
 
     #[test]
+    fn a_floor_does_not_hide_what_stands_on_it() {
+        let block = Aabb::new(Vec3A::new(-1.0, 0.0, -1.0), Vec3A::new(1.0, 1.0, 0.0));
+        let floor = isect::Plane { normal: Vec3A::Y, offset: 0.0 };
+        let scene = scene(&[Shape::Plane(floor), Shape::Box(block)], &[]);
+        let accelerator = NaiveLoop::<Exact>::new(&[]);
+        let tracer = Tracer::new(&scene, &accelerator, 0);
+        let cones = Cones::new(&tracer, None, 0.0);
+        // At the foot of the block: the floor begins nearer and is all over the section, the block covers its upper half.
+        let eye = Vec3A::new(0.1, 1.0, 5.0);
+        let cone = Cone::new(Ray::new(eye, (Vec3A::X * 0.1 - eye).normalize()), 0.0, 0.02);
+        let touches = cones.in_order(&cone, cones.touches(&cone, None));
+        assert!(touches.iter().any(|touch| touch.layer == 0 && touch.coverage > 0.99));
+        let parts = parts(touches, 4);
+        let share = |is_floor: bool| -> f32 {
+            let of = |part: &&Part| matches!(part.primitive, Primitive::Shape(0)) == is_floor;
+            parts.iter().filter(of).map(|part| part.share).sum()
+        };
+        assert!((share(true) - 0.5).abs() < 0.02 && (share(false) - 0.5).abs() < 0.02, "{parts:?}");
+    }
+
+    #[test]
     fn parts_add_up_to_what_is_covered() {
         let touch = |layer: usize, t: f32, coverage: f32, back: Option<f32>| Touch {
             primitive: Primitive::Shape(layer),
@@ -642,9 +755,12 @@ mod tests {
             coverage,
             layer,
             back,
+            middle: None,
         };
         let shares = |touches: &[Touch]| -> Vec<f32> {
-            parts(touches.to_vec(), 3).into_iter().map(|part| part.share).collect()
+            let mut touches = touches.to_vec();
+            touches.sort_by(|a, b| a.back.unwrap_or(a.t).total_cmp(&b.back.unwrap_or(b.t)));
+            parts(touches, 3).into_iter().map(|part| part.share).collect()
         };
         // Two surfaces that do not know of each other; then one, whose parts do; then its back.
         assert_eq!(shares(&[touch(0, 1.0, 0.5, None), touch(1, 2.0, 0.5, None)]), [0.5, 0.25]);
