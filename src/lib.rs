@@ -1,7 +1,7 @@
-//! Intersection kernels for renderers: a ray or a cone against a plane, sphere, box or triangle, and a triangle
-//! against a box, on [glam]'s vectors, in `f32` and `f64`.
+//! Intersection kernels for renderers: a ray against a plane, sphere, box, triangle or polygon, a triangle against a box, and
+//! cones, pyramids and beams against these, on [glam]'s vectors, in `f32` and `f64`.
 //!
-//! **Each kernel states what it promises, and an oracle in exact arithmetic holds it to that.** The defaults are exact: their
+//! **Each kernel states what it promises, and an oracle in exact arithmetic holds it to that.** The defaults for rays and triangles are exact: their
 //! hit or miss is that of exact arithmetic on the given floats. Other float kernels fray at edges and vertices, and lose
 //! rays between the triangles of a mesh:
 //!
@@ -76,7 +76,8 @@
 //!   the speed of floats: these decide wherever an error bound lets them, and integers where not. t, u and v
 //!   are within a stated error bound.
 //! * **Watertight**: no ray slips between two triangles that share an edge or a vertex.
-//!   **Conservative**: no box that the ray touches is missed, no shape that touches a pyramid is outside of it.
+//!   **Conservative**: no box that the ray touches is missed, no shape that a cone touches is, and none that touches a pyramid is
+//!   outside of it.
 //! * **Fast**: t, u and v are within a stated error bound of the exact ones; near an edge, within that
 //!   bound, the verdict may be wrong, and a ray may slip between two triangles.
 //!
