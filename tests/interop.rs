@@ -1,10 +1,17 @@
 //! The traits of other crates: what is written can be read, what is bad is refused or harmless, what is cast is the same bytes.
 //!
-//! `cargo test --all-features --test interop`; the target is left out of a plain `cargo test`.
+//! `cargo test --all-features --test interop`, or one feature at a time with `--features proptest,serde`, as proptest draws the shapes
+//! (approx with serde, which reaches each of their numbers); the target is left out of a plain `cargo test`.
+#![cfg_attr(
+    not(all(feature = "approx", feature = "bytemuck", feature = "serde")),
+    allow(unused_imports, dead_code, unused_macros)
+)]
 
 use std::fmt::Debug;
 
+#[cfg(all(feature = "approx", feature = "serde"))]
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
+#[cfg(feature = "bytemuck")]
 use bytemuck::{AnyBitPattern, Pod, Zeroable};
 use isect::glam::{DVec3, Vec3, Vec3A};
 use isect::interop::Extent;
@@ -23,8 +30,11 @@ use isect::{
 use proptest::prelude::{Arbitrary, Strategy, any, any_with};
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngSeed, TestError, TestRunner};
+#[cfg(feature = "serde")]
 use serde::Serialize;
+#[cfg(feature = "serde")]
 use serde::de::DeserializeOwned;
+#[cfg(feature = "serde")]
 use serde_json::{Value, json};
 
 /// Runs a generic check with all three vector types.
@@ -88,6 +98,7 @@ macro_rules! for_every_type {
     }};
 }
 
+#[cfg(feature = "serde")]
 mod stored {
     use super::*;
 
@@ -320,6 +331,7 @@ mod stored {
     }
 }
 
+#[cfg(feature = "bytemuck")]
 mod cast {
     use super::*;
 
@@ -421,6 +433,7 @@ mod cast {
     }
 }
 
+#[cfg(all(feature = "approx", feature = "serde"))] // serde reaches each number
 mod close {
     use super::*;
 
