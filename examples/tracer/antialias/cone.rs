@@ -1,6 +1,6 @@
 //! A cone for each pixel: J. Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984.
 //!
-//! It is as wide as the pixel, and round: the area of its section is the pixel's. Nothing in it goes unseen, however small, and no
+//! It is as wide as the pixel, and round: the area of its section is the pixel's. However small a thing in it is, it has its share, and no
 //! random number makes noise.
 
 use super::Eye;
