@@ -26,13 +26,13 @@ pub(crate) struct Options {
     #[arg(long, value_enum, default_value = "none")]
     fog: FogName,
     /// Where linear fog begins, and where nothing else is left [default: 4,24]
-    #[arg(long, value_name = "DMIN,DMAX", value_parser = parse_range)]
+    #[arg(long, allow_hyphen_values = true, value_name = "DMIN,DMAX", value_parser = parse_range)]
     fog_range: Option<[f32; 2]>,
     /// How dense exponential fog is [default: 0.08]
-    #[arg(long, value_name = "D", value_parser = parse_density)]
+    #[arg(long, allow_hyphen_values = true, value_name = "D", value_parser = parse_density)]
     fog_density: Option<f32>,
     /// Its colour, linear, 0 to 1 [default: that of the sky at the horizon]
-    #[arg(long, value_name = "R,G,B", value_parser = parse_color)]
+    #[arg(long, allow_hyphen_values = true, value_name = "R,G,B", value_parser = parse_color)]
     fog_color: Option<Color>,
 }
 

@@ -76,6 +76,7 @@ Examples:
   parallel tracer --crop 0,{1},960,{2} --output part{1}.png ::: 0 135 270 405 :::+ 135 270 405 540
   tracer --merge part*.png --output whole.png";
 
+// Options with numbers allow hyphens: a negative number is a bad value, not another option.
 /// Renders a scene of a mesh, spheres, boxes and planes, and tells how fast.
 #[derive(Debug, Parser)]
 #[command(name = "tracer", after_help = EXAMPLES)]
@@ -87,10 +88,10 @@ struct Arguments {
     #[arg(long, value_name = "FILE.obj|icosphere:N", value_parser = parse_mesh)]
     mesh: Option<MeshSource>,
     /// Width and height of the picture, at most 64 Mi pixels
-    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = parse_size)]
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "960x540", value_parser = parse_size)]
     size: [u32; 2],
     /// Renders only the columns X0 to X1 − 1 and the rows Y0 to Y1 − 1, as a part for --merge
-    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
+    #[arg(long, allow_hyphen_values = true, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
     crop: Option<Tile>,
     /// Instead of rendering, puts together the parts of a picture, in any order
     #[arg(long, value_name = "PART.png", num_args = 1..)]
@@ -100,7 +101,7 @@ struct Arguments {
     #[command(flatten)]
     fog: fog::Options,
     /// How many times a ray is reflected or refracted at most, 0 to 64
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=64))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=64))]
     depth: u32,
     /// How it is found out what is seen
     #[arg(long, value_enum, default_value = "rays")]
@@ -115,7 +116,7 @@ struct Arguments {
     #[arg(long)]
     packets: bool,
     /// Threads, up to 1024; 0 for one per core
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
     threads: u16,
     /// Instead of a picture, tells how fast bvh8, its packets and obvhs's CWBVH find the hits of WxH rays, on one thread
     #[arg(long)]
@@ -243,21 +244,6 @@ fn parse_mesh(text: &str) -> Result<MeshSource, String> {
     }
 }
 
-/// The options whose values are numbers.
-const NUMBERS: &[&str] = &[
-    "size",
-    "crop",
-    "samples",
-    "max_level",
-    "seed",
-    "lamp_radius",
-    "fog_range",
-    "fog_density",
-    "fog_color",
-    "depth",
-    "threads",
-];
-
 /// The options beside which --merge has a place, itself among them.
 const MERGE: &[&str] = &["merge", "output"];
 
@@ -282,11 +268,7 @@ const COMPARE: &[&str] = &[
 
 /// Reads the command line.
 fn parse() -> Result<Arguments, clap::Error> {
-    // A negative number is a bad value, not an option.
-    let mut command = Arguments::command().mut_args(|argument| {
-        let is_number = NUMBERS.contains(&argument.get_id().as_str());
-        argument.allow_hyphen_values(is_number)
-    });
+    let mut command = Arguments::command();
     let mut matches = command.try_get_matches_from_mut(std::env::args_os())?;
     let is_given = |option: &str| matches.value_source(option) == Some(ValueSource::CommandLine);
     for (mode, has_place) in [("merge", MERGE), ("compare", COMPARE), ("bench", BENCH)] {

@@ -363,6 +363,19 @@ fn clay() -> Material {
     Material::painted(Paint::Plain(Color::new(0.78, 0.40, 0.20)))
 }
 
+/// Nothing, in clear daylight.
+fn by_day() -> Scene {
+    Scene {
+        view: View { from: Vec3A::Z, at: Vec3A::ZERO, field_of_view: 30.0 },
+        mesh: Mesh::default(),
+        mesh_material: clay(),
+        shapes: Vec::new(),
+        lights: lights(),
+        sky: Sky::DAY,
+        fog: Fog::None,
+    }
+}
+
 fn showcase(obj: Obj) -> Scene {
     let block = Aabb::new(Vec3A::new(-3.1, 0.0, -1.6), Vec3A::new(-1.8, 1.3, -0.3));
     let teal = Paint::Plain(Color::new(0.04, 0.30, 0.34));
@@ -373,16 +386,13 @@ fn showcase(obj: Obj) -> Scene {
             field_of_view: 27.0,
         },
         mesh: obj.standing(2.3, Vec3A::new(-0.35, 0.0, 0.2)),
-        mesh_material: clay(),
         shapes: vec![
             floor(),
             (Shape::Box(block), Material::painted(teal)),
             (ball(1.95, -1.2, 1.15), Material::mirror(Color::new(0.95, 0.96, 1.0))),
             (ball(1.15, 1.75, 0.58), Material::GLASS),
         ],
-        lights: lights(),
-        sky: Sky::DAY,
-        fog: Fog::None,
+        ..by_day()
     }
 }
 
@@ -401,11 +411,8 @@ fn mesh(obj: Obj) -> Scene {
             field_of_view,
         },
         mesh,
-        mesh_material: clay(),
         shapes: vec![floor()],
-        lights: lights(),
-        sky: Sky::DAY,
-        fog: Fog::None,
+        ..by_day()
     }
 }
 
@@ -419,8 +426,6 @@ fn spheres() -> Scene {
             at: Vec3A::new(0.1, 1.05, 0.0),
             field_of_view: 28.0,
         },
-        mesh: Mesh::default(),
-        mesh_material: clay(),
         shapes: vec![
             floor(),
             (Shape::Sphere(bubble), Material::GLASS),
@@ -428,9 +433,7 @@ fn spheres() -> Scene {
             (ball(0.95, -0.4, 1.05), Material::mirror(Color::new(0.95, 0.96, 1.0))),
             (ball(-2.2, -0.9, 0.7), Material::painted(red)),
         ],
-        lights: lights(),
-        sky: Sky::DAY,
-        fog: Fog::None,
+        ..by_day()
     }
 }
 
@@ -456,12 +459,8 @@ fn shares() -> Scene {
             at: Vec3A::new(0.0, 0.45, 0.0),
             field_of_view: 23.0,
         },
-        mesh: Mesh::default(),
-        mesh_material: clay(),
         shapes,
-        lights: lights(),
-        sky: Sky::DAY,
-        fog: Fog::None,
+        ..by_day()
     }
 }
 
@@ -486,17 +485,13 @@ fn textures() -> Scene {
             at: Vec3A::new(0.0, 0.85, 0.0),
             field_of_view: 26.0,
         },
-        mesh: Mesh::default(),
-        mesh_material: clay(),
         shapes: vec![
             floor(),
             (ball(-1.9, 0.2, 1.0), varnished(marble)),
             (Shape::Box(block), varnished(wood)),
             (ball(1.8, 0.3, 0.9), Material::painted(cubes)),
         ],
-        lights: lights(),
-        sky: Sky::DAY,
-        fog: Fog::None,
+        ..by_day()
     }
 }
 
@@ -512,8 +507,6 @@ fn lamps() -> Scene {
             at: Vec3A::new(0.0, 0.5, 0.0),
             field_of_view: 30.0,
         },
-        mesh: Mesh::default(),
-        mesh_material: clay(),
         shapes: vec![
             (Shape::Plane(plane), white),
             (Shape::Box(post), white),
@@ -526,7 +519,7 @@ fn lamps() -> Scene {
             lamp(0.0, 2.4, -3.0, Color::new(0.5, 0.9, 0.4), Falloff([1.0, 0.7, 0.0])),
         ],
         sky: Sky::NIGHT,
-        fog: Fog::None,
+        ..by_day()
     }
 }
 
@@ -556,11 +549,8 @@ fn edges(obj: Obj) -> Scene {
             field_of_view: 28.0,
         },
         mesh: obj.standing(1.9, Vec3A::new(-0.9, 0.0, 0.2)),
-        mesh_material: clay(),
         shapes,
-        lights: lights(),
-        sky: Sky::DAY,
-        fog: Fog::None,
+        ..by_day()
     }
 }
 
@@ -626,11 +616,7 @@ fn polygons() -> Scene {
             at: Vec3A::new(0.1, 1.1, 0.0),
             field_of_view: 32.0,
         },
-        mesh: Mesh::default(),
-        mesh_material: clay(),
         shapes,
-        lights: lights(),
-        sky: Sky::DAY,
-        fog: Fog::None,
+        ..by_day()
     }
 }

@@ -233,15 +233,9 @@ impl<'a> Tracer<'a> {
 
     /// The light of the lamps and the sky that a surface itself scatters.
     fn local(&self, sight: &Sight<'_>, counts: &mut RayCounts) -> Color {
-        let mut local = Local::new(self.scene, sight);
-        for light in &self.scene.lights {
-            if let Some(shadow) = local.shadow(light) {
-                counts.shadow += 1;
-                let lit = transmittance(self.scene, self.accelerator, &shadow.ray);
-                local.add(light, &shadow, lit);
-            }
-        }
-        local.color
+        Local::color(self.scene, sight, counts, |shadow| {
+            transmittance(self.scene, self.accelerator, &shadow.ray)
+        })
     }
 
     /// The same for surfaces whose shadow rays go together; of no meaning where there is none.
@@ -330,6 +324,23 @@ impl<'a> Local<'a> {
             shadow_origin: surface.shadow_origin(),
             color: scattered * scene.ambient(surface.normal),
         }
+    }
+
+    /// The light of the sky and of all lamps, of which the share that `lit` says arrives.
+    fn color(
+        scene: &Scene,
+        sight: &'a Sight<'a>,
+        counts: &mut RayCounts,
+        lit: impl Fn(&Shadow) -> f32,
+    ) -> Color {
+        let mut local = Self::new(scene, sight);
+        for light in &scene.lights {
+            if let Some(shadow) = local.shadow(light) {
+                counts.shadow += 1;
+                local.add(light, &shadow, lit(&shadow));
+            }
+        }
+        local.color
     }
 
     /// The way to a lamp, unless the surface is in its own shadow.

@@ -49,16 +49,16 @@ pub(crate) struct Options {
     #[arg(long, value_name = "METHOD", value_enum, default_value = "uniform")]
     antialias: MethodName,
     /// Rays per pixel: 1, 4, 9, … 1024; with uniform and stochastic only [default: 4]
-    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = parse_samples)]
     samples: Option<PerEdge>,
     /// How often a pixel splits at most: 0 to 6; with adaptive and pyramid only [default: 3]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(..=6))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u8).range(..=6))]
     max_level: Option<u8>,
     /// What the random numbers follow from; with stochastic only [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, allow_hyphen_values = true, value_name = "N")]
     seed: Option<u64>,
     /// The radius of all lamps, for soft shadows, in units of the scene, up to 10000; with cone only [default: 0]
-    #[arg(long, value_name = "R", value_parser = parse_radius)]
+    #[arg(long, allow_hyphen_values = true, value_name = "R", value_parser = parse_radius)]
     lamp_radius: Option<f32>,
 }
 

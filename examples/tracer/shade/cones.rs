@@ -80,12 +80,8 @@ struct Layer {
 /// What a cone sees of a primitive.
 #[derive(Clone, Copy, Debug)]
 struct Part {
-    primitive: Primitive,
-    t: f32,
-    middle: Option<Ray<Vec3A>>,
-    /// Of the section, by itself.
-    coverage: f32,
-    /// Of the section, with what it hides and stands for.
+    touch: Touch,
+    /// Of the section, without what is hidden, with what it stands for.
     share: f32,
 }
 
@@ -129,10 +125,12 @@ impl<'a> Cones<'a> {
     ) -> Color {
         // The shapes, all polygons, and the mesh.
         let layers = self.scene().shapes.len() + 2;
-        let parts = parts(self.in_order(cone, self.touches(cone, from)), layers);
+        let lines = Lines::new(cone);
+        let touches = self.in_order(&lines, self.touches(cone, &lines, from));
+        let parts = parts(touches, layers);
         let (mut color, mut found) = (Color::ZERO, 0.0);
         for part in &parts {
-            if let Some(spot) = self.spot(cone, part) {
+            if let Some(spot) = self.spot(cone, &lines, &part.touch) {
                 let branch = Branch { weight: branch.weight * part.share, ..branch };
                 let seen = self.seen(cone.ray.origin, spot, branch, counts);
                 // As of a ray: brighter than white is white, or edges would have steps.
@@ -153,9 +151,8 @@ impl<'a> Cones<'a> {
     }
 
     /// All that a cone touches, but for the shape that it comes from.
-    fn touches(&self, cone: &Cone<Vec3A>, from: Option<usize>) -> Vec<Touch> {
+    fn touches(&self, cone: &Cone<Vec3A>, lines: &Lines, from: Option<usize>) -> Vec<Touch> {
         let mut touches = Vec::new();
-        let lines = Lines::new(cone);
         let Scene { shapes, mesh, .. } = self.scene();
         for (layer, (shape, _)) in shapes.iter().enumerate() {
             if Some(layer) == from {
@@ -207,15 +204,14 @@ impl<'a> Cones<'a> {
     ///
     /// Where something begins says little if it is long, as a floor under what stands on it. So of two things the smaller one's
     /// middle decides, if they are not too many to ask.
-    fn in_order(&self, cone: &Cone<Vec3A>, mut touches: Vec<Touch>) -> Vec<Touch> {
+    fn in_order(&self, lines: &Lines, mut touches: Vec<Touch>) -> Vec<Touch> {
         touches.retain(|touch| touch.coverage > 0.0);
         touches.sort_by(|a, b| a.back.unwrap_or(a.t).total_cmp(&b.back.unwrap_or(b.t)));
         if touches.len() > MANY {
             return touches;
         }
-        let lines = Lines::new(cone);
         for touch in &mut touches {
-            touch.middle = self.middle(&lines, &touch.primitive, touch.t);
+            touch.middle = self.middle(lines, &touch.primitive, touch.t);
         }
         let is_before = |a: &Touch, b: &Touch| {
             let smaller = if a.coverage < b.coverage { a } else { b };
@@ -265,11 +261,11 @@ impl<'a> Cones<'a> {
         }
     }
 
-    /// What is in the middle of a part, if a ray finds it: of a thin one it may not.
-    fn spot(&self, cone: &Cone<Vec3A>, part: &Part) -> Option<Spot<'a>> {
-        let (lines, scene) = (Lines::new(cone), self.scene());
-        let ray = part.middle.or_else(|| self.middle(&lines, &part.primitive, part.t))?;
-        let (surface, shape) = match part.primitive {
+    /// What is in the middle of what a cone touches, if a ray finds it: of a thin thing it may not.
+    fn spot(&self, cone: &Cone<Vec3A>, lines: &Lines, touch: &Touch) -> Option<Spot<'a>> {
+        let scene = self.scene();
+        let ray = touch.middle.or_else(|| self.middle(lines, &touch.primitive, touch.t))?;
+        let (surface, shape) = match touch.primitive {
             Primitive::Mesh(index, triangle) => {
                 let hit = MeshHit { triangle: index, hit: ray.intersect(&triangle)? };
                 (Surface::of_mesh(scene, &ray, &hit), None)
@@ -286,7 +282,7 @@ impl<'a> Cones<'a> {
         // Shapes are convex: what leaves one on the outside does not come back.
         let shape = shape.filter(|_| !surface.leaving);
         // A narrower cone has room in the lines of sight that meet the part.
-        let width = part.coverage;
+        let width = touch.coverage;
         let radius = cone.radius_at(t_at(cone, surface.point)) * width;
         Some(Spot {
             surface,
@@ -310,7 +306,9 @@ impl<'a> Cones<'a> {
         let Spot { surface, shape, direction, radius, spread, curvature } = spot;
         let color = surface.material.paint.over(surface.point, around);
         let sight = Sight::of_color(surface, direction, color);
-        let mut color = self.local(&sight, shape, radius, counts);
+        let mut color = Local::color(self.scene(), &sight, counts, |shadow| {
+            self.lit(&sight.surface, shape, shadow, radius)
+        });
         for Onward { direction, is_refracted, share, tint } in sight.onward() {
             let Some(branch) = branch.next(share) else { continue };
             counts.count_onward(is_refracted);
@@ -342,25 +340,6 @@ impl<'a> Cones<'a> {
             color += tint * (share * self.radiance(&onward, from, branch, counts));
         }
         self.scene().fog.over(color, from.distance(sight.surface.point))
-    }
-
-    /// The light of the lamps and the sky that a surface itself scatters.
-    fn local(
-        &self,
-        sight: &Sight<'_>,
-        shape: Option<usize>,
-        radius: f32,
-        counts: &mut RayCounts,
-    ) -> Color {
-        let mut local = Local::new(self.scene(), sight);
-        for light in &self.scene().lights {
-            if let Some(shadow) = local.shadow(light) {
-                counts.shadow += 1;
-                let lit = self.lit(&sight.surface, shape, &shadow, radius);
-                local.add(light, &shadow, lit);
-            }
-        }
-        local.color
     }
 
     /// The share of a lamp that a spot sees, on the average: of the lines between the two that nothing covers.
@@ -585,7 +564,7 @@ fn parts(touches: Vec<Touch>, layers: usize) -> Vec<Part> {
     let mut layers = vec![Layer::default(); layers];
     let mut parts = Vec::new();
     for touch in touches {
-        let Touch { primitive, t, coverage, middle, .. } = touch;
+        let coverage = touch.coverage;
         let others = layers.iter().enumerate().filter(|&(layer, _)| layer != touch.layer);
         let not_hidden: f32 = others.map(|(_, layer)| 1.0 - layer.covered).product();
         let layer = &mut layers[touch.layer];
@@ -598,7 +577,7 @@ fn parts(touches: Vec<Touch>, layers: usize) -> Vec<Part> {
         let covered = (coverage - hidden).min(1.0 - layer.covered);
         layer.covered += covered;
         let share = covered * not_hidden + layer.waiting.map_or(0.0, |part| part.share);
-        let part = Part { primitive, t, middle, coverage, share };
+        let part = Part { touch, share };
         layer.waiting = Some(part).filter(|part| part.share > 0.0);
         if layer.waiting.is_some() && share > least {
             layer.waiting = None;
@@ -737,11 +716,12 @@ mod tests {
         // At the foot of the block: the floor begins nearer and is all over the section, the block covers its upper half.
         let eye = Vec3A::new(0.1, 1.0, 5.0);
         let cone = Cone::new(Ray::new(eye, (Vec3A::X * 0.1 - eye).normalize()), 0.0, 0.02);
-        let touches = cones.in_order(&cone, cones.touches(&cone, None));
+        let lines = Lines::new(&cone);
+        let touches = cones.in_order(&lines, cones.touches(&cone, &lines, None));
         assert!(touches.iter().any(|touch| touch.layer == 0 && touch.coverage > 0.99));
         let parts = parts(touches, 4);
         let share = |is_floor: bool| -> f32 {
-            let of = |part: &&Part| matches!(part.primitive, Primitive::Shape(0)) == is_floor;
+            let of = |part: &&Part| matches!(part.touch.primitive, Primitive::Shape(0)) == is_floor;
             parts.iter().filter(of).map(|part| part.share).sum()
         };
         assert!((share(true) - 0.5).abs() < 0.02 && (share(false) - 0.5).abs() < 0.02, "{parts:?}");
